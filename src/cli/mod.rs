@@ -1,0 +1,67 @@
+//! The command line: one file a subcommand, no logic of its own.
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Psychophysics of ambient occlusion: render pairs, run sessions, analyse choices.
+#[derive(Parser)]
+#[command(name = "greyfield", version, about)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    /// Say less: no progress, only results and errors.
+    #[arg(long, short, global = true)]
+    quiet: bool,
+    /// Say more (twice for everything).
+    #[arg(long, short, global = true, action = clap::ArgAction::Count)]
+    verbose: u8,
+}
+
+#[derive(Subcommand)]
+enum Command {}
+
+/// A failure with the exit code it ends in.
+#[derive(Debug)]
+pub struct Failure {
+    /// 1: failed with a message. 2: wrong usage or bad input.
+    pub code: u8,
+    /// What went wrong, with its causes.
+    pub error: anyhow::Error,
+}
+
+impl Failure {
+    /// Wrong usage or bad input: exit code 2.
+    pub fn bad_input(error: impl Into<anyhow::Error>) -> Self {
+        Self {
+            code: 2,
+            error: error.into(),
+        }
+    }
+}
+
+impl<E: Into<anyhow::Error>> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Self {
+            code: 1,
+            error: error.into(),
+        }
+    }
+}
+
+/// Parses the command line, runs the command, prints a failure as one message.
+#[must_use]
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    match run(cli) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("error: {:#}", failure.error);
+            ExitCode::from(failure.code)
+        }
+    }
+}
+
+fn run(cli: Cli) -> Result<(), Failure> {
+    match cli.command {}
+}

@@ -1,0 +1,11 @@
+//! What a picture is made of: geometry, materials, light and camera, as plain
+//! data. Nothing here knows of a GPU.
+//!
+//! Conventions: metres, right-handed, +Y up, a camera looks along its own −Z;
+//! triangles are counter-clockwise seen from outside; colours are linear unless a
+//! name says sRGB.
+
+pub mod geometry;
+pub mod procedural;
+
+pub use geometry::{Geometry, Material, Mesh, Texture, TextureEncoding, Vertex};

@@ -1,0 +1,10 @@
+//! The session as a state machine: takes events (time, key, frame shown), gives
+//! what to show and what to store. No window and no clock of its own, so that
+//! every path of it can be tested; the application and the scripted observers
+//! drive the same [`Session`](machine::Session).
+
+pub mod event;
+pub mod screen;
+
+pub use event::{Effect, Event, SessionTime};
+pub use screen::Screen;
