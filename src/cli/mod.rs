@@ -1,8 +1,12 @@
 //! The command line: one file a subcommand, no logic of its own.
 
+mod output;
+mod render;
+
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+pub use output::Output;
 
 /// Psychophysics of ambient occlusion: render pairs, run sessions, analyse choices.
 #[derive(Parser)]
@@ -19,7 +23,9 @@ struct Cli {
 }
 
 #[derive(Subcommand)]
-enum Command {}
+enum Command {
+    Render(render::RenderArgs),
+}
 
 /// A failure with the exit code it ends in.
 #[derive(Debug)]
@@ -63,5 +69,8 @@ pub fn main() -> ExitCode {
 }
 
 fn run(cli: Cli) -> Result<(), Failure> {
-    match cli.command {}
+    let output = Output { quiet: cli.quiet };
+    match cli.command {
+        Command::Render(args) => render::run(&args, output),
+    }
 }
