@@ -1,11 +1,14 @@
 //! The command line: one file a subcommand, no logic of its own.
 
 mod order;
+mod output;
+mod render;
 mod run;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+pub use output::Output;
 
 /// Psychophysics of ambient occlusion: render pairs, run sessions, analyse choices.
 #[derive(Parser)]
@@ -23,17 +26,9 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    Run(Box<run::Run>),
-    Order(order::Order),
-}
-
-/// How much is said.
-#[derive(Debug, Clone, Copy)]
-pub struct Verbosity {
-    /// Only results and errors.
-    pub quiet: bool,
-    /// How often `-v` was given.
-    pub level: u8,
+    Render(render::RenderArgs),
+    Run(Box<run::RunArgs>),
+    Order(order::OrderArgs),
 }
 
 /// A failure with the exit code it ends in.
@@ -78,12 +73,13 @@ pub fn main() -> ExitCode {
 }
 
 fn run(cli: Cli) -> Result<(), Failure> {
-    let verbosity = Verbosity {
+    let output = Output {
         quiet: cli.quiet,
-        level: cli.verbose,
+        verbose: cli.verbose,
     };
     match cli.command {
-        Command::Run(args) => run::run(&args, verbosity),
+        Command::Render(args) => render::run(&args, output),
+        Command::Run(args) => run::run(&args, output),
         Command::Order(args) => order::run(&args),
     }
 }

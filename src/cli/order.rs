@@ -1,24 +1,24 @@
 //! `greyfield order`: the plan of a study as CSV.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use serde::Deserialize;
 
 use super::Failure;
 use crate::config;
 use crate::protocol::{Condition, Protocol, SessionPlan};
+use crate::stimulus::StimulusSet;
+use crate::stimulus::set::SetCondition;
 
 /// Print who sees which pairs in which order, as CSV.
 ///
 /// Columns: participant (the slot, from 0), position (from 0), condition, and the
 /// two techniques in the order shown. The same protocol and seed give the same plan
 /// on any machine.
-///
-/// Example: greyfield order protocols/thesis-2010.toml --participants 36
 #[derive(Debug, Args)]
-pub struct Order {
+#[command(after_help = "Example:\n  greyfield order protocols/thesis-2010.toml --participants 36")]
+pub struct OrderArgs {
     /// The protocol.
     #[arg(value_name = "PROTOCOL.toml")]
     protocol: PathBuf,
@@ -34,10 +34,12 @@ pub struct Order {
 ///
 /// # Errors
 /// Bad input: the protocol or its stimulus set. Otherwise the output.
-pub fn run(args: &Order) -> Result<(), Failure> {
+pub fn run(args: &OrderArgs) -> Result<(), Failure> {
     let text = config::read(&args.protocol).map_err(Failure::bad_input)?;
     let mut protocol = Protocol::parse(&args.protocol, &text).map_err(Failure::bad_input)?;
-    let conditions = conditions(&protocol.stimulus_set(&args.protocol))?;
+    let set =
+        StimulusSet::load(&protocol.stimulus_set(&args.protocol)).map_err(Failure::bad_input)?;
+    let conditions = conditions(&set);
     protocol.seed = args.seed.unwrap_or(protocol.seed);
     let participants = args
         .participants
@@ -89,28 +91,13 @@ fn is_broken_pipe(failure: &Failure) -> bool {
     direct.or(by_csv).unwrap_or(false)
 }
 
-/// The part of a stimulus set's config that a design needs.
-#[derive(Deserialize)]
-struct Set {
-    condition: Vec<SetCondition>,
-}
-
-#[derive(Deserialize)]
-struct SetCondition {
-    id: String,
-    scene: String,
-    first: String,
-    second: String,
-}
-
-/// The conditions of a stimulus set that need not be rendered.
-fn conditions(set: &Path) -> Result<Vec<Condition>, Failure> {
-    let set: Set = config::load(set).map_err(Failure::bad_input)?;
-    let condition = |written: SetCondition| Condition {
-        id: written.id,
-        scene: written.scene,
-        first_technique: written.first,
-        second_technique: written.second,
+/// The conditions of a set that need not be drawn yet, as the design sees them.
+fn conditions(set: &StimulusSet) -> Vec<Condition> {
+    let seen = |condition: &SetCondition| Condition {
+        id: condition.id.clone(),
+        scene: set.scenes[condition.scene].id.clone(),
+        first_technique: condition.first.label.clone(),
+        second_technique: condition.second.label.clone(),
     };
-    Ok(set.condition.into_iter().map(condition).collect())
+    set.conditions.iter().map(seen).collect()
 }
