@@ -1,12 +1,14 @@
 //! The command line: one file a subcommand, no logic of its own.
 
+mod order;
 mod output;
 mod render;
+mod run;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-pub use output::Output;
+pub use output::Verbosity;
 
 /// Psychophysics of ambient occlusion: render pairs, run sessions, analyse choices.
 #[derive(Parser)]
@@ -25,6 +27,8 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Render(render::RenderArgs),
+    Run(Box<run::Run>),
+    Order(order::Order),
 }
 
 /// A failure with the exit code it ends in.
@@ -69,8 +73,13 @@ pub fn main() -> ExitCode {
 }
 
 fn run(cli: Cli) -> Result<(), Failure> {
-    let output = Output { quiet: cli.quiet };
+    let verbosity = Verbosity {
+        quiet: cli.quiet,
+        level: cli.verbose,
+    };
     match cli.command {
-        Command::Render(args) => render::run(&args, output),
+        Command::Render(args) => render::run(&args, verbosity),
+        Command::Run(args) => run::run(&args, verbosity),
+        Command::Order(args) => order::run(&args),
     }
 }
