@@ -8,7 +8,7 @@ mod run;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-pub use output::Output;
+pub use output::Verbosity;
 
 /// Psychophysics of ambient occlusion: render pairs, run sessions, analyse choices.
 #[derive(Parser)]
@@ -27,8 +27,8 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Render(render::RenderArgs),
-    Run(Box<run::RunArgs>),
-    Order(order::OrderArgs),
+    Run(Box<run::Run>),
+    Order(order::Order),
 }
 
 /// A failure with the exit code it ends in.
@@ -73,13 +73,13 @@ pub fn main() -> ExitCode {
 }
 
 fn run(cli: Cli) -> Result<(), Failure> {
-    let output = Output {
+    let verbosity = Verbosity {
         quiet: cli.quiet,
-        verbose: cli.verbose,
+        level: cli.verbose,
     };
     match cli.command {
-        Command::Render(args) => render::run(&args, output),
-        Command::Run(args) => run::run(&args, output),
+        Command::Render(args) => render::run(&args, verbosity),
+        Command::Run(args) => run::run(&args, verbosity),
         Command::Order(args) => order::run(&args),
     }
 }

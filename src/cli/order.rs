@@ -1,7 +1,7 @@
 //! `greyfield order`: the plan of a study as CSV.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -16,9 +16,10 @@ use crate::stimulus::set::SetCondition;
 /// Columns: participant (the slot, from 0), position (from 0), condition, and the
 /// two techniques in the order shown. The same protocol and seed give the same plan
 /// on any machine.
+///
+/// Example: greyfield order protocols/thesis-2010.toml --participants 36
 #[derive(Debug, Args)]
-#[command(after_help = "Example:\n  greyfield order protocols/thesis-2010.toml --participants 36")]
-pub struct OrderArgs {
+pub struct Order {
     /// The protocol.
     #[arg(value_name = "PROTOCOL.toml")]
     protocol: PathBuf,
@@ -34,12 +35,10 @@ pub struct OrderArgs {
 ///
 /// # Errors
 /// Bad input: the protocol or its stimulus set. Otherwise the output.
-pub fn run(args: &OrderArgs) -> Result<(), Failure> {
+pub fn run(args: &Order) -> Result<(), Failure> {
     let text = config::read(&args.protocol).map_err(Failure::bad_input)?;
     let mut protocol = Protocol::parse(&args.protocol, &text).map_err(Failure::bad_input)?;
-    let set =
-        StimulusSet::load(&protocol.stimulus_set(&args.protocol)).map_err(Failure::bad_input)?;
-    let conditions = conditions(&set);
+    let conditions = conditions(&protocol.stimulus_set(&args.protocol))?;
     protocol.seed = args.seed.unwrap_or(protocol.seed);
     let participants = args
         .participants
@@ -91,13 +90,14 @@ fn is_broken_pipe(failure: &Failure) -> bool {
     direct.or(by_csv).unwrap_or(false)
 }
 
-/// The conditions of a set that need not be drawn yet, as the design sees them.
-fn conditions(set: &StimulusSet) -> Vec<Condition> {
-    let seen = |condition: &SetCondition| Condition {
+/// The conditions of a stimulus set, which need not be rendered for this.
+fn conditions(set: &Path) -> Result<Vec<Condition>, Failure> {
+    let set = StimulusSet::load(set).map_err(Failure::bad_input)?;
+    let condition = |condition: &SetCondition| Condition {
         id: condition.id.clone(),
         scene: set.scenes[condition.scene].id.clone(),
         first_technique: condition.first.label.clone(),
         second_technique: condition.second.label.clone(),
     };
-    set.conditions.iter().map(seen).collect()
+    Ok(set.conditions.iter().map(condition).collect())
 }

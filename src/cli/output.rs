@@ -1,15 +1,15 @@
 //! How much a command says, and its progress bars.
 
-/// What the global flags ask for.
+/// How much is said, as the global flags ask.
 #[derive(Debug, Clone, Copy)]
-pub struct Output {
-    /// No progress.
+pub struct Verbosity {
+    /// Only results and errors.
     pub quiet: bool,
     /// How often `-v` was given.
-    pub verbose: u8,
+    pub level: u8,
 }
 
-impl Output {
+impl Verbosity {
     /// A progress bar on stderr, hidden if the command is to be quiet or nobody watches.
     #[must_use]
     pub fn progress(self, steps: u64) -> indicatif::ProgressBar {

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use clap::Args;
 
-use super::{Failure, Output};
+use super::{Failure, Verbosity};
 use crate::render::plan::{FramePlan, GeometryFacts};
 use crate::render::{Gpu, Precision, Renderer};
 use crate::stimulus::{Manifest, StimulusSet, produce};
@@ -48,7 +48,7 @@ enum PrecisionArg {
 ///
 /// # Errors
 /// [`Failure`] with exit code 2 for a wrong config, 1 for what fails later.
-pub fn run(args: &RenderArgs, output: Output) -> Result<(), Failure> {
+pub fn run(args: &RenderArgs, verbosity: Verbosity) -> Result<(), Failure> {
     let mut set = StimulusSet::load(&args.set).map_err(Failure::bad_input)?;
     match args.precision {
         Some(PrecisionArg::Full) => set.precision = Precision::Full,
@@ -59,7 +59,7 @@ pub fn run(args: &RenderArgs, output: Output) -> Result<(), Failure> {
         return explain(&set, args.only.as_deref());
     }
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&set));
-    let manifest = draw(&set, &folder, args, output)?;
+    let manifest = draw(&set, &folder, args, verbosity)?;
     println!(
         "{} images of {} conditions in {}",
         2 * manifest.pairs.len(),
@@ -83,13 +83,13 @@ fn draw(
     set: &StimulusSet,
     folder: &std::path::Path,
     args: &RenderArgs,
-    output: Output,
+    verbosity: Verbosity,
 ) -> Result<Manifest, Failure> {
     let started = Instant::now();
     let renderer = Renderer::new(Gpu::open(args.adapter.as_deref())?);
     let opened = started.elapsed();
     let steps = set.scenes.len() + 2 * set.conditions.len();
-    let bar = output.progress(steps as u64);
+    let bar = verbosity.progress(steps as u64);
     let mut last: Option<(String, Instant)> = None;
     let mut lines = Vec::new();
     let mut finish = |last: &mut Option<(String, Instant)>| {

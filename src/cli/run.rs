@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 use time::OffsetDateTime;
 
-use super::{Failure, Output};
+use super::{Failure, Verbosity};
 use crate::config;
 use crate::protocol::Protocol;
 use crate::record::RecordError;
@@ -25,7 +25,7 @@ use crate::stimulus::{Manifest, StimulusSet};
 #[command(
     after_help = "Example:\n  greyfield run protocols/thesis-2010.toml --results results/thesis --headless --observer random:1 --participants 28"
 )]
-pub struct RunArgs {
+pub struct Run {
     /// The protocol.
     #[arg(value_name = "PROTOCOL.toml")]
     pub protocol: PathBuf,
@@ -83,10 +83,10 @@ pub struct Prepared {
 ///
 /// # Errors
 /// Bad input (exit code 2): protocol, stimuli, names. Otherwise the disk.
-pub fn run(args: &RunArgs, output: Output) -> Result<(), Failure> {
+pub fn run(args: &Run, verbosity: Verbosity) -> Result<(), Failure> {
     let prepared = prepare(&args.protocol, args.stimuli.as_deref())?;
     if args.headless {
-        headless(args, &prepared, output)
+        headless(args, &prepared, verbosity)
     } else {
         Err(anyhow!("sessions in a window are not here yet; use --headless").into())
     }
@@ -152,7 +152,7 @@ fn load(folder: &Path, set_path: &Path) -> Result<Manifest, Failure> {
     )))
 }
 
-fn headless(args: &RunArgs, prepared: &Prepared, output: Output) -> Result<(), Failure> {
+fn headless(args: &Run, prepared: &Prepared, verbosity: Verbosity) -> Result<(), Failure> {
     let usage = |message: String| Failure::bad_input(anyhow!(message));
     let scripted: Scripted = args
         .observer
@@ -181,7 +181,7 @@ fn headless(args: &RunArgs, prepared: &Prepared, output: Output) -> Result<(), F
     let summary = headless
         .run(participants, OffsetDateTime::now_utc, |progress| {
             if told.is_ok() {
-                told = tell(&mut stdout, &progress, args.format, output);
+                told = tell(&mut stdout, &progress, args.format, verbosity);
             }
         })
         .map_err(failure_of_run)?;
@@ -189,7 +189,7 @@ fn headless(args: &RunArgs, prepared: &Prepared, output: Output) -> Result<(), F
     for warning in &summary.warnings {
         eprintln!("warning: {warning}");
     }
-    summarise(&mut stdout, &summary, args.format, output)?;
+    summarise(&mut stdout, &summary, args.format, verbosity)?;
     Ok(())
 }
 
@@ -213,7 +213,7 @@ fn tell(
     stdout: &mut impl Write,
     progress: &Progress,
     format: Format,
-    output: Output,
+    verbosity: Verbosity,
 ) -> io::Result<()> {
     match (format, progress) {
         (Format::Json, Progress::Started(enrolment)) => writeln!(
@@ -231,10 +231,10 @@ fn tell(
             "{}",
             json!({"event": "finished", "participant": participant.as_str()})
         ),
-        (Format::Text, Progress::Stored { row_id, .. }) if output.verbose >= 2 => {
+        (Format::Text, Progress::Stored { row_id, .. }) if verbosity.level >= 2 => {
             writeln!(stdout, "stored {row_id}")
         }
-        (Format::Text, Progress::Finished(participant)) if output.verbose >= 1 => {
+        (Format::Text, Progress::Finished(participant)) if verbosity.level >= 1 => {
             writeln!(stdout, "finished {participant}")
         }
         (Format::Text, _) => Ok(()),
@@ -245,7 +245,7 @@ fn summarise(
     stdout: &mut impl Write,
     summary: &Summary,
     format: Format,
-    output: Output,
+    verbosity: Verbosity,
 ) -> io::Result<()> {
     match format {
         Format::Json => writeln!(
@@ -253,7 +253,7 @@ fn summarise(
             "{}",
             json!({"event": "done", "finished": summary.finished, "resumed": summary.resumed, "already_finished": summary.already_finished, "rows": summary.rows, "data": summary.data})
         ),
-        Format::Text if output.quiet => Ok(()),
+        Format::Text if verbosity.quiet => Ok(()),
         Format::Text => {
             write!(
                 stdout,

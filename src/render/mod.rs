@@ -24,3 +24,6 @@ pub use frame::{FrameRequest, Precision};
 pub use readback::{FloatImage, LinearDepth};
 pub use renderer::{RenderedFrame, Renderer};
 pub use upload::GpuScene;
+
+#[cfg(test)]
+mod tests;

@@ -12,12 +12,11 @@
 // 4 x 4 seeded unit vectors, tiled over the picture.
 @group(0) @binding(5) var<uniform> noise: array<vec4f, 16>;
 
-// Linear depth of a pixel, metres; off the picture there is nothing, which is as far as it gets.
+// Linear depth of a pixel, metres. Beyond the picture's edge the edge goes on, as with a clamped
+// sampler: calling it open would draw a bright frame round every image.
 fn depth_at(pixel: vec2i) -> f32 {
-    if !is_inside(pixel) {
-        return frame.far_m;
-    }
-    return textureLoad(depth_texture, pixel, 0).x;
+    let inside = clamp(pixel, vec2i(0), vec2i(frame.size_px) - 1);
+    return textureLoad(depth_texture, inside, 0).x;
 }
 
 fn tile_index(pixel: vec2i) -> u32 {
