@@ -187,11 +187,35 @@ fn bad_input_is_said_before_anything_is_written() {
     );
 }
 
+/// Without `--stimuli` the images must be those of the set as it is now.
+#[test]
+fn images_that_are_not_of_the_set_are_refused() {
+    let study = TinyStudy::new();
+    let results = study.path("results");
+    let refusal = || {
+        let output = study
+            .command_without_stimuli(&results, "first", 1)
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+        stderr(&output)
+    };
+    let message = refusal();
+    assert!(message.contains("no rendered stimuli"), "{message}");
+    assert!(message.contains("greyfield render"), "{message}");
+    std::fs::rename(study.path("images"), study.path("tiny")).unwrap();
+    let message = refusal();
+    assert!(message.contains("another state of the set"), "{message}");
+    assert!(!results.exists());
+}
+
 #[test]
 fn order_prints_the_plan_the_sessions_follow() {
+    let study = TinyStudy::new();
     let order = |arguments: &[&str]| {
         let output = Command::new(env!("CARGO_BIN_EXE_greyfield"))
-            .args(["order", "protocols/thesis-2010.toml"])
+            .arg("order")
+            .arg(study.path("protocol.toml"))
             .args(arguments)
             .output()
             .unwrap();
@@ -224,4 +248,16 @@ fn order_prints_the_plan_the_sessions_follow() {
         1 + 36 * TRIALS,
         "as many as planned"
     );
+    // The sessions show what the plan says.
+    let results = study.path("results");
+    assert!(study.run(&results, "first", 15).status.success());
+    let mut shown = lines[..1].join("") + "\n";
+    for row in read_folder(&results).unwrap().rows {
+        let (first, second) = (row.technique_first, row.technique_second);
+        shown += &format!(
+            "{},{},{},{first},{second}\n",
+            row.slot, row.trial_index, row.condition
+        );
+    }
+    assert_eq!(shown, plan);
 }

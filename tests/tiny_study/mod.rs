@@ -20,8 +20,10 @@ pub struct TinyStudy {
 impl TinyStudy {
     pub fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
-        let protocol = include_str!("../../protocols/thesis-2010.toml");
+        let thesis = include_str!("../../protocols/thesis-2010.toml");
+        let protocol = thesis.replace("../stimuli/thesis-2010.toml", "set.toml");
         std::fs::write(folder.path().join("protocol.toml"), protocol).unwrap();
+        std::fs::write(folder.path().join("set.toml"), set()).unwrap();
         let stimuli = folder.path().join("images");
         std::fs::create_dir(&stimuli).unwrap();
         let manifest = Manifest {
@@ -44,12 +46,22 @@ impl TinyStudy {
 
     /// `greyfield run … --headless`, not started yet.
     pub fn command(&self, results: &Path, observer: &str, participants: u32) -> Command {
+        let mut command = self.command_without_stimuli(results, observer, participants);
+        command.arg("--stimuli").arg(self.path("images"));
+        command
+    }
+
+    /// The same, with the images where `greyfield render` would put them.
+    pub fn command_without_stimuli(
+        &self,
+        results: &Path,
+        observer: &str,
+        participants: u32,
+    ) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_greyfield"));
         command
             .arg("run")
             .arg(self.path("protocol.toml"))
-            .arg("--stimuli")
-            .arg(self.path("images"))
             .arg("--results")
             .arg(results)
             .args(["--headless", "--format", "json", "--observer", observer])
@@ -63,6 +75,20 @@ impl TinyStudy {
             .output()
             .unwrap()
     }
+}
+
+/// A stimulus set of the same conditions, for what needs no images.
+fn set() -> String {
+    use std::fmt::Write;
+    let head = "id = \"tiny\"\ntitle = \"Tiny\"\nseed = 1\nwidth_px = 4\nheight_px = 3\n";
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/stimuli/scenes/atrium.toml");
+    (0..TRIALS).fold(head.to_owned(), |mut text, index| {
+        let condition =
+            format!("id = \"condition-{index}\"\nscene = {scene:?}\nlighting = \"low\"");
+        let techniques = "first = \"none\"\nsecond = \"blizzard24\"";
+        writeln!(text, "[[condition]]\n{condition}\n{techniques}").unwrap();
+        text
+    })
 }
 
 fn pair(folder: &Path, index: u8) -> PairRecord {
