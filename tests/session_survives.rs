@@ -120,7 +120,7 @@ fn a_full_disk_is_one_clear_error_and_half_a_row_is_no_answer() {
     let message = stderr(&output);
     assert_eq!(output.status.code(), Some(1), "{message}");
     for part in [
-        "random7-0002",
+        "random7p0002",
         "could not be saved",
         "_data.csv",
         "run the same command",
