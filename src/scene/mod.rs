@@ -6,6 +6,8 @@
 //! name says sRGB.
 
 pub mod geometry;
+pub mod modelling;
 pub mod procedural;
+pub mod texture;
 
 pub use geometry::{Geometry, Material, Mesh, Texture, TextureEncoding, Vertex};
