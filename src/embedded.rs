@@ -6,11 +6,26 @@ use std::path::{Path, PathBuf};
 
 /// Paths and contents of the embedded configs.
 pub const FILES: &[(&str, &str)] = &[
-    ("protocols/thesis-2010.toml", include_str!("../protocols/thesis-2010.toml")),
-    ("stimuli/thesis-2010.toml", include_str!("../stimuli/thesis-2010.toml")),
-    ("stimuli/scenes/atrium.toml", include_str!("../stimuli/scenes/atrium.toml")),
-    ("stimuli/scenes/figurine.toml", include_str!("../stimuli/scenes/figurine.toml")),
-    ("stimuli/scenes/figures.toml", include_str!("../stimuli/scenes/figures.toml")),
+    (
+        "protocols/thesis-2010.toml",
+        include_str!("../protocols/thesis-2010.toml"),
+    ),
+    (
+        "stimuli/thesis-2010.toml",
+        include_str!("../stimuli/thesis-2010.toml"),
+    ),
+    (
+        "stimuli/scenes/atrium.toml",
+        include_str!("../stimuli/scenes/atrium.toml"),
+    ),
+    (
+        "stimuli/scenes/figurine.toml",
+        include_str!("../stimuli/scenes/figurine.toml"),
+    ),
+    (
+        "stimuli/scenes/figures.toml",
+        include_str!("../stimuli/scenes/figures.toml"),
+    ),
 ];
 
 /// The protocol of the embedded study, among [`FILES`].
@@ -58,7 +73,10 @@ mod tests {
         let text = std::fs::read_to_string(&path).unwrap();
         let protocol = Protocol::parse(&path, &text).unwrap();
         let named = protocol.stimulus_set(&path);
-        assert_eq!(named.canonicalize().unwrap(), dir.path().join(STIMULI).canonicalize().unwrap());
+        assert_eq!(
+            named.canonicalize().unwrap(),
+            dir.path().join(STIMULI).canonicalize().unwrap()
+        );
         assert_eq!(set.size_px, (1280, 720));
     }
 
@@ -71,13 +89,34 @@ mod tests {
         let found: Vec<[&str; 5]> = set
             .conditions
             .iter()
-            .map(|c| [&c.id, &c.validity, &c.first.label, &c.second.label, &c.hypothesis].map(String::as_str))
+            .map(|c| {
+                [
+                    &c.id,
+                    &c.validity,
+                    &c.first.label,
+                    &c.second.label,
+                    &c.hypothesis,
+                ]
+                .map(String::as_str)
+            })
             .collect();
         let expected = [
             ["dragon-low", "low", "crytek24", "blizzard24", "H2"],
             ["sponza-moderate-h1", "moderate", "none", "blizzard24", "H1"],
-            ["sponza-moderate-h2", "moderate", "crytek24", "blizzard24", "H2"],
-            ["characters-moderate", "moderate", "blizzard8", "ray-march30", "H2"],
+            [
+                "sponza-moderate-h2",
+                "moderate",
+                "crytek24",
+                "blizzard24",
+                "H2",
+            ],
+            [
+                "characters-moderate",
+                "moderate",
+                "blizzard8",
+                "ray-march30",
+                "H2",
+            ],
             ["sponza-high-h1", "high", "none", "blizzard24", "H1"],
             ["sponza-high-h2", "high", "crytek24", "blizzard24", "H2"],
             ["characters-high", "high", "none", "blizzard24", "H1"],

@@ -62,7 +62,13 @@ pub fn run(args: &RenderArgs, verbosity: Verbosity) -> Result<(), Failure> {
         return explain(&set, args.only.as_deref());
     }
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&set));
-    let drawn = draw(&set, &folder, args.only.as_deref(), args.adapter.as_deref(), verbosity)?;
+    let drawn = draw(
+        &set,
+        &folder,
+        args.only.as_deref(),
+        args.adapter.as_deref(),
+        verbosity,
+    )?;
     if args.timings {
         println!("{}", drawn.timings);
     }
@@ -71,7 +77,11 @@ pub fn run(args: &RenderArgs, verbosity: Verbosity) -> Result<(), Failure> {
         files::write_whole(path, &files::encode_png(path, &sheet)?)?;
     }
     let pairs = drawn.manifest.pairs.len();
-    println!("{} images of {pairs} conditions in {}", 2 * pairs, folder.display());
+    println!(
+        "{} images of {pairs} conditions in {}",
+        2 * pairs,
+        folder.display()
+    );
     Ok(())
 }
 
@@ -116,7 +126,13 @@ pub fn draw(
     })?;
     bar.finish_and_clear();
     let adapter = &renderer.gpu().adapter;
-    let timings = format!("on {} ({}, {})\n{}", adapter.name, adapter.kind, adapter.driver, watch.finish());
+    let timings = format!(
+        "on {} ({}, {})\n{}",
+        adapter.name,
+        adapter.kind,
+        adapter.driver,
+        watch.finish()
+    );
     Ok(Drawn { manifest, timings })
 }
 
@@ -129,7 +145,11 @@ struct StopWatch {
 
 impl StopWatch {
     fn new() -> Self {
-        Self { started: Instant::now(), current: None, lines: Vec::new() }
+        Self {
+            started: Instant::now(),
+            current: None,
+            lines: Vec::new(),
+        }
     }
 
     /// Ends the step at hand and begins the next.
@@ -145,7 +165,10 @@ impl StopWatch {
     }
 
     fn line(&mut self, what: &str, since: Instant) {
-        self.lines.push(format!("{what:<44} {:>8.0} ms", since.elapsed().as_secs_f64() * 1e3));
+        self.lines.push(format!(
+            "{what:<44} {:>8.0} ms",
+            since.elapsed().as_secs_f64() * 1e3
+        ));
     }
 
     fn finish(mut self) -> String {
