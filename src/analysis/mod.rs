@@ -1,1 +1,3 @@
-//! (room under construction)
+//! The statistics. Tails and quantiles come from [`tails`].
+
+pub mod tails;
