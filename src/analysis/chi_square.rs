@@ -18,7 +18,7 @@ pub const STATISTIC: ConditionStatistic = ConditionStatistic {
         validity: "an approximation, and poor under 10 votes (expected counts under 5): use the exact p there",
     },
     columns: &[
-        Column::new("chi_square", "χ²", Style::Decimals(6), Group::Tests),
+        Column::new("chi_square", "χ²", Style::UpTo(6), Group::Tests),
         Column::new("p_chi_square", "p χ²", Style::P, Group::Tests),
     ],
     cells: |condition, _| {

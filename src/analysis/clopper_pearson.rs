@@ -17,7 +17,7 @@ pub const STATISTIC: ConditionStatistic = ConditionStatistic {
     columns: &[Column::new(
         "clopper_pearson",
         "Clopper–Pearson",
-        Style::Decimals(3),
+        Style::Interval(3),
         Group::Choices,
     )],
     cells: |condition, settings| {

@@ -156,7 +156,7 @@ fn by_hypothesis(data: &Dataset, settings: &Settings) -> Vec<String> {
                 .filter(|&&i| family.verdict(i, settings) == Verdict::Significant)
                 .count();
             format!(
-                "{name}: {towards_b} of {} with more votes for technique b; significant after Holm (exact): {}.",
+                "{name}: in {towards_b} of {} technique b has more votes; significant after Holm (exact): {}.",
                 plural(of.len(), "condition"),
                 match significant {
                     0 => "none".to_owned(),

@@ -125,12 +125,7 @@ pub fn table(data: &Dataset, settings: &Settings) -> Table {
             }
         }
     }
-    columns.push(Column::new(
-        "verdict",
-        "verdict",
-        Style::Text,
-        Group::Effects,
-    ));
+    columns.push(Column::new("verdict", "verdict", Style::Text, Group::Tests));
     let family = main_family(data);
     for (i, row) in rows.iter_mut().enumerate() {
         row.push(Cell::Text(family.verdict(i, settings).text().to_owned()));

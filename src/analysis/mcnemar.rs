@@ -84,7 +84,7 @@ fn section(data: &Dataset, settings: &Settings) -> Option<Section> {
         )],
         tables: vec![SectionTable {
             id: "pairs",
-            caption: "McNemar's exact test; `only left` chose technique b in the left condition and not in the right one",
+            caption: "McNemar's exact test; “only left”: chose technique b in the left condition and not in the right one",
             long: false,
             table: Table {
                 columns: columns(),

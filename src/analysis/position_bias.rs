@@ -82,7 +82,7 @@ fn section(data: &Dataset, settings: &Settings) -> Option<Section> {
     let mut findings = Vec::new();
     if let (Ok(p), Ok(interval)) = (exact_p(votes), wilson::interval(votes, settings.alpha)) {
         findings.push(format!(
-            "The image shown first was chosen in {} of {} trials ({:.1} %, {} % interval {:.1} to {:.1} %; exact p {}).",
+            "The image shown first was chosen in {} of {} trials ({:.1}\u{a0}%, {}\u{a0}% interval {:.1} to {:.1}\u{a0}%; exact p {}).",
             votes.b,
             votes.total(),
             100.0 * f64::from(votes.b) / f64::from(votes.total()),
@@ -127,8 +127,8 @@ fn balance(data: &Dataset) -> String {
         return "Every condition was answered equally often in both orders.".to_owned();
     }
     format!(
-        "{uneven} of {} conditions were not answered equally often in both orders; the most uneven is {}, {ab} times {} first and {ba} times {} first.",
-        data.conditions.len(),
+        "The two orders are uneven in {uneven} of {}, most in {}: {} first {ab} times, {} first {ba} times.",
+        super::conclusion::plural(data.conditions.len(), "condition"),
         worst.id,
         worst.technique_a,
         worst.technique_b,

@@ -70,8 +70,12 @@ pub enum Style {
     Text,
     /// Whole numbers.
     Count,
-    /// A number or interval with this many decimals.
+    /// A number with this many decimals.
     Decimals(usize),
+    /// An interval, both ends with this many decimals.
+    Interval(usize),
+    /// A number with this many decimals, a whole one without any.
+    UpTo(usize),
     /// A p-value.
     P,
 }
@@ -114,6 +118,12 @@ impl Column {
             style,
             group,
         }
+    }
+
+    /// Whether it holds intervals, which are two columns in files.
+    #[must_use]
+    pub fn is_interval(&self) -> bool {
+        matches!(self.style, Style::Interval(_))
     }
 }
 

@@ -18,7 +18,7 @@ pub const STATISTIC: ConditionStatistic = ConditionStatistic {
     columns: &[Column::new(
         "wilson",
         "Wilson",
-        Style::Decimals(3),
+        Style::Interval(3),
         Group::Choices,
     )],
     cells: |condition, settings: &Settings| {

@@ -1,5 +1,8 @@
 //! The command line: one file a subcommand, no logic of its own.
 
+mod analyse;
+mod output;
+
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -19,7 +22,9 @@ struct Cli {
 }
 
 #[derive(Subcommand)]
-enum Command {}
+enum Command {
+    Analyse(analyse::AnalyseArgs),
+}
 
 /// A failure with the exit code it ends in.
 #[derive(Debug)]
@@ -63,5 +68,7 @@ pub fn main() -> ExitCode {
 }
 
 fn run(cli: Cli) -> Result<(), Failure> {
-    match cli.command {}
+    match cli.command {
+        Command::Analyse(args) => analyse::run(&args),
+    }
 }

@@ -8,16 +8,16 @@ pub struct Names {
     numbers: HashMap<Box<[u8]>, u32>,
     names: Vec<String>,
     /// The last one asked for: rows of a participant or a condition mostly follow each other.
-    last: Option<(Box<[u8]>, u32)>,
+    last: Option<u32>,
 }
 
 impl Names {
     /// The number of a name, new or known; `None` if it is new and not UTF-8.
     pub fn number(&mut self, name: &[u8]) -> Option<u32> {
-        if let Some((last, number)) = &self.last
-            && **last == *name
+        if let Some(last) = self.last
+            && self.name(last).as_bytes() == name
         {
-            return Some(*number);
+            return Some(last);
         }
         let number = match self.numbers.get(name) {
             Some(&number) => number,
@@ -29,7 +29,7 @@ impl Names {
                 number
             }
         };
-        self.last = Some((name.into(), number));
+        self.last = Some(number);
         Some(number)
     }
 

@@ -110,8 +110,8 @@ impl Trials {
     /// [`InputError`] for an empty name, a name that is not UTF-8, one technique on both sides, or
     /// techniques other than the condition's.
     pub fn add(&mut self, trial: &Observation<'_>) -> Result<(), InputError> {
-        let path = self.files.last().cloned().unwrap_or_default();
-        let error = |message: String| InputError::line(&path, trial.line, message);
+        let path = self.files.last().map_or(Path::new(""), PathBuf::as_path);
+        let error = |message: String| InputError::line(path, trial.line, message);
         let fields = [
             ("participant", trial.participant),
             ("condition", trial.condition),
