@@ -3,6 +3,7 @@
 use super::ReportError;
 use super::number::scientific;
 use crate::analysis::table::{Cell, Column, Table};
+use crate::record::spreadsheet::neutral;
 
 /// The table, UTF-8, lines ended by a line feed.
 pub fn render(table: &Table) -> Result<String, ReportError> {
@@ -37,7 +38,8 @@ pub fn interval_keys(column: &Column) -> [String; 2] {
 
 fn fields(cell: &Cell, interval: bool) -> Vec<String> {
     match cell {
-        Cell::Text(text) => vec![no_formula(text)],
+        // A spreadsheet would run a name that starts like a formula.
+        Cell::Text(text) => vec![neutral(text).into_owned()],
         Cell::Count(count) => vec![count.to_string()],
         Cell::Number(number) => vec![number.to_string()],
         Cell::Probability(p) if p.value() >= f64::MIN_POSITIVE => vec![p.value().to_string()],
@@ -45,15 +47,6 @@ fn fields(cell: &Cell, interval: bool) -> Vec<String> {
         Cell::Interval(ends) => vec![ends.low.to_string(), ends.high.to_string()],
         Cell::Undefined(_) if interval => vec![String::new(); 2],
         Cell::Undefined(_) => vec![String::new()],
-    }
-}
-
-/// A spreadsheet would run a name that starts like a formula.
-fn no_formula(text: &str) -> String {
-    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
-        format!("'{text}")
-    } else {
-        text.to_owned()
     }
 }
 

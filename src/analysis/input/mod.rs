@@ -59,36 +59,25 @@ const LAYOUTS: [Layout; 3] = [
 /// # Errors
 /// [`InputError`] naming file and line, what was found, what is allowed.
 pub fn read(inputs: &[PathBuf], options: Options) -> Result<Dataset, InputError> {
-    let mut trials = Trials::default();
-    let mut files = Vec::new();
-    for input in inputs {
-        if input.is_dir() {
-            files.extend(files_of_folder(input, &mut trials)?);
-        } else {
-            files.push(input.clone());
-        }
-    }
-    let mut counts = Counts::default();
+    let (mut trials, mut counts) = (Trials::default(), Counts::default());
     let mut left_out = results::LeftOut::default();
     let (mut sources, mut notes) = (Vec::new(), Vec::new());
-    for path in &files {
-        let file = CsvFile::open(path)?;
-        let layout = recognise(&file)?;
-        notes.extend(unused_columns(&file, layout));
-        let source = match layout.kind {
-            count_table::KIND => counts.read(file)?,
-            trial_table::KIND => trial_table::read(file, &mut trials)?,
-            _ => results::read(file, &mut trials, options, &mut left_out)?,
-        };
+    let files = files_of(inputs, &mut trials)?;
+    for (path, known) in &files {
+        let kind = known.map_or_else(|| recognise(path, &mut notes), Ok)?;
+        sources.push(match kind {
+            results::KIND => results::read(path, &mut trials, options, &mut left_out, &mut notes)?,
+            count_table::KIND => counts.read(CsvFile::open(path)?)?,
+            _ => trial_table::read(CsvFile::open(path)?, &mut trials)?,
+        });
         if !counts.is_empty() && !trials.is_empty() {
             return Err(InputError::whole(
                 path,
                 "counts and single answers cannot be analysed together; give one kind",
             ));
         }
-        sources.push(source);
     }
-    notes.extend(results::notes(&left_out));
+    notes.extend(left_out.notes());
     if counts.is_empty() && trials.is_empty() {
         return Err(nothing_left(&files, &notes));
     }
@@ -105,18 +94,30 @@ pub fn read(inputs: &[PathBuf], options: Options) -> Result<Dataset, InputError>
     Ok(data)
 }
 
-fn files_of_folder(folder: &Path, trials: &mut Trials) -> Result<Vec<PathBuf>, InputError> {
-    if results::is_results_folder(folder) {
-        return results::data_files(folder, trials);
+/// A file, and what it is where the folder says so.
+type Found = (PathBuf, Option<&'static str>);
+
+/// The files of all inputs, folders opened, in the order given.
+fn files_of(inputs: &[PathBuf], trials: &mut Trials) -> Result<Vec<Found>, InputError> {
+    let mut all = Vec::new();
+    for input in inputs {
+        if !input.is_dir() {
+            all.push((input.clone(), None));
+        } else if results::is_results_folder(input) {
+            let files = results::data_files(input, trials)?;
+            all.extend(files.into_iter().map(|file| (file, Some(results::KIND))));
+        } else {
+            let files = csv_files_in(input)?;
+            if files.is_empty() {
+                return Err(InputError::whole(
+                    input,
+                    "the folder has no data; a results folder (with data/…_data.csv) or CSV files are needed",
+                ));
+            }
+            all.extend(files.into_iter().map(|file| (file, None)));
+        }
     }
-    let files = csv_files_in(folder)?;
-    if files.is_empty() {
-        return Err(InputError::whole(
-            folder,
-            "the folder has no data; a results folder (with data/…_data.csv) or CSV files are needed",
-        ));
-    }
-    Ok(files)
+    Ok(all)
 }
 
 /// The CSV files directly in a folder, sorted by name so that the order never depends on the disk.
@@ -133,7 +134,15 @@ fn csv_files_in(folder: &Path) -> Result<Vec<PathBuf>, InputError> {
     Ok(files)
 }
 
-fn recognise(file: &CsvFile) -> Result<&'static Layout, InputError> {
+/// What a file is, by its columns. Columns nobody reads are noted.
+fn recognise(path: &Path, notes: &mut Vec<String>) -> Result<&'static str, InputError> {
+    let file = CsvFile::open(path)?;
+    let layout = layout_of(&file)?;
+    notes.extend(unused_columns(&file, layout));
+    Ok(layout.kind)
+}
+
+fn layout_of(file: &CsvFile) -> Result<&'static Layout, InputError> {
     let missing = |layout: &Layout| {
         layout
             .required
@@ -234,8 +243,8 @@ fn unused_columns(file: &CsvFile, layout: &Layout) -> Option<String> {
     })
 }
 
-fn nothing_left(files: &[PathBuf], notes: &[String]) -> InputError {
-    let path = files.first().map_or(Path::new(""), PathBuf::as_path);
+fn nothing_left(files: &[Found], notes: &[String]) -> InputError {
+    let path = files.first().map_or(Path::new(""), |(path, _)| path);
     InputError::whole(
         path,
         format!(

@@ -5,7 +5,10 @@
 
 use super::Geometry;
 
+mod atrium;
+
 /// A procedural scene.
+#[derive(Debug)]
 pub struct Generator {
     /// Name in scene configs (`[geometry] generator = "atrium"`).
     pub name: &'static str,
@@ -16,7 +19,7 @@ pub struct Generator {
 }
 
 /// Every generator there is.
-pub const GENERATORS: &[&Generator] = &[];
+pub const GENERATORS: &[&Generator] = &[&atrium::ATRIUM];
 
 /// The generator of that name.
 #[must_use]
