@@ -8,7 +8,7 @@ use clap::Args;
 use super::{Failure, Verbosity};
 use crate::render::plan::{FramePlan, GeometryFacts};
 use crate::render::{Gpu, Precision, Renderer};
-use crate::stimulus::{Manifest, StimulusSet, produce};
+use crate::stimulus::{Manifest, StimulusSet, files, produce, sheet};
 
 /// Draw the images of a stimulus set, with a manifest of where each came from.
 #[derive(Debug, Args)]
@@ -36,6 +36,9 @@ pub struct RenderArgs {
     /// Print what each step took.
     #[arg(long)]
     timings: bool,
+    /// Also draw every pair, small, on one picture: a row a condition.
+    #[arg(long, value_name = "FILE.png")]
+    sheet: Option<PathBuf>,
 }
 
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
@@ -68,6 +71,10 @@ pub fn run(args: &RenderArgs, verbosity: Verbosity) -> Result<(), Failure> {
     )?;
     if args.timings {
         println!("{}", drawn.timings);
+    }
+    if let Some(path) = &args.sheet {
+        let sheet = sheet::contact_sheet(&drawn.manifest, &folder)?;
+        files::write_whole(path, &files::encode_png(path, &sheet)?)?;
     }
     let pairs = drawn.manifest.pairs.len();
     println!(
