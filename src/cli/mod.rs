@@ -1,5 +1,6 @@
 //! The command line: one file a subcommand, no logic of its own.
 
+mod analyse;
 mod order;
 mod output;
 mod render;
@@ -29,6 +30,7 @@ enum Command {
     Render(render::RenderArgs),
     Run(Box<run::Run>),
     Order(order::Order),
+    Analyse(analyse::AnalyseArgs),
 }
 
 /// A failure with the exit code it ends in.
@@ -81,5 +83,6 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Render(args) => render::run(&args, verbosity),
         Command::Run(args) => run::run(&args, verbosity),
         Command::Order(args) => order::run(&args),
+        Command::Analyse(args) => analyse::run(&args),
     }
 }

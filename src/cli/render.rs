@@ -1,6 +1,6 @@
 //! `greyfield render`: stimuli from a set config.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
@@ -8,7 +8,7 @@ use clap::Args;
 use super::{Failure, Verbosity};
 use crate::render::plan::{FramePlan, GeometryFacts};
 use crate::render::{Gpu, Precision, Renderer};
-use crate::stimulus::{Manifest, StimulusSet, produce};
+use crate::stimulus::{Manifest, StimulusSet, files, produce, sheet};
 
 /// Draw the images of a stimulus set, with a manifest of where each came from.
 #[derive(Debug, Args)]
@@ -36,6 +36,9 @@ pub struct RenderArgs {
     /// Print what each step took.
     #[arg(long)]
     timings: bool,
+    /// Also draw every pair, small, on one picture: a row a condition.
+    #[arg(long, value_name = "FILE.png")]
+    sheet: Option<PathBuf>,
 }
 
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
@@ -59,11 +62,24 @@ pub fn run(args: &RenderArgs, verbosity: Verbosity) -> Result<(), Failure> {
         return explain(&set, args.only.as_deref());
     }
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&set));
-    let manifest = draw(&set, &folder, args, verbosity)?;
+    let drawn = draw(
+        &set,
+        &folder,
+        args.only.as_deref(),
+        args.adapter.as_deref(),
+        verbosity,
+    )?;
+    if args.timings {
+        println!("{}", drawn.timings);
+    }
+    if let Some(path) = &args.sheet {
+        let sheet = sheet::contact_sheet(&drawn.manifest, &folder)?;
+        files::write_whole(path, &files::encode_png(path, &sheet)?)?;
+    }
+    let pairs = drawn.manifest.pairs.len();
     println!(
-        "{} images of {} conditions in {}",
-        2 * manifest.pairs.len(),
-        manifest.pairs.len(),
+        "{} images of {pairs} conditions in {}",
+        2 * pairs,
         folder.display()
     );
     Ok(())
@@ -75,34 +91,32 @@ pub fn default_folder(set: &StimulusSet) -> PathBuf {
     set.path.with_file_name(&set.id)
 }
 
+/// A drawn set.
+pub struct Drawn {
+    /// Its manifest.
+    pub manifest: Manifest,
+    /// What each step took, a line each.
+    pub timings: String,
+}
+
 /// Opens the adapter and draws the set, with a progress bar.
 ///
 /// # Errors
-/// [`Failure`].
-fn draw(
+/// [`Failure`]: exit code 2 for a condition that is not there, 1 for adapter and disk.
+pub fn draw(
     set: &StimulusSet,
-    folder: &std::path::Path,
-    args: &RenderArgs,
+    folder: &Path,
+    only: Option<&str>,
+    adapter: Option<&str>,
     verbosity: Verbosity,
-) -> Result<Manifest, Failure> {
-    let started = Instant::now();
-    let renderer = Renderer::new(Gpu::open(args.adapter.as_deref())?);
-    let opened = started.elapsed();
+) -> Result<Drawn, Failure> {
+    let mut watch = StopWatch::new();
+    watch.step("opening the adapter");
+    let renderer = Renderer::new(Gpu::open(adapter)?);
     let steps = set.scenes.len() + 2 * set.conditions.len();
     let bar = verbosity.progress(steps as u64);
-    let mut last: Option<(String, Instant)> = None;
-    let mut lines = Vec::new();
-    let mut finish = |last: &mut Option<(String, Instant)>| {
-        if let Some((what, since)) = last.take() {
-            lines.push(format!(
-                "{what:<44} {:>8.0} ms",
-                since.elapsed().as_secs_f64() * 1e3
-            ));
-        }
-    };
-    let manifest = produce::produce(&renderer, set, folder, args.only.as_deref(), &mut |what| {
-        finish(&mut last);
-        last = Some((what.to_owned(), Instant::now()));
+    let manifest = produce::produce(&renderer, set, folder, only, &mut |what| {
+        watch.step(what);
         bar.set_message(what.to_owned());
         bar.inc(1);
     })
@@ -110,23 +124,58 @@ fn draw(
         produce::ProduceError::NoSuchCondition { .. } => Failure::bad_input(error),
         error => Failure::from(error),
     })?;
-    finish(&mut last);
     bar.finish_and_clear();
-    if args.timings {
-        println!(
-            "adapter {} ({}), opened in {:.0} ms",
-            renderer.gpu().adapter.name,
-            renderer.gpu().adapter.kind,
-            opened.as_secs_f64() * 1e3
-        );
-        println!("{}", lines.join("\n"));
-        println!(
-            "{:<44} {:>8.0} ms",
-            "all",
-            started.elapsed().as_secs_f64() * 1e3
-        );
+    let adapter = &renderer.gpu().adapter;
+    let timings = format!(
+        "on {} ({}, {})\n{}",
+        adapter.name,
+        adapter.kind,
+        adapter.driver,
+        watch.finish()
+    );
+    Ok(Drawn { manifest, timings })
+}
+
+/// Wall time of one step after another.
+struct StopWatch {
+    started: Instant,
+    current: Option<(String, Instant)>,
+    lines: Vec<String>,
+}
+
+impl StopWatch {
+    fn new() -> Self {
+        Self {
+            started: Instant::now(),
+            current: None,
+            lines: Vec::new(),
+        }
     }
-    Ok(manifest)
+
+    /// Ends the step at hand and begins the next.
+    fn step(&mut self, what: &str) {
+        self.end_step();
+        self.current = Some((what.to_owned(), Instant::now()));
+    }
+
+    fn end_step(&mut self) {
+        if let Some((what, since)) = self.current.take() {
+            self.line(&what, since);
+        }
+    }
+
+    fn line(&mut self, what: &str, since: Instant) {
+        self.lines.push(format!(
+            "{what:<44} {:>8.0} ms",
+            since.elapsed().as_secs_f64() * 1e3
+        ));
+    }
+
+    fn finish(mut self) -> String {
+        self.end_step();
+        self.line("all", self.started);
+        self.lines.join("\n")
+    }
 }
 
 fn explain(set: &StimulusSet, only: Option<&str>) -> Result<(), Failure> {

@@ -5,6 +5,7 @@ pub mod files;
 pub mod manifest;
 pub mod produce;
 pub mod set;
+pub mod sheet;
 
 pub use manifest::{ImageRecord, Manifest, PairRecord, Picture, StimulusError};
 pub use set::StimulusSet;
