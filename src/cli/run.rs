@@ -76,6 +76,7 @@ pub struct Prepared {
     /// What was rendered.
     pub manifest: Manifest,
     /// Where the images are.
+    #[allow(dead_code)] // the window loads them from here
     pub stimuli: PathBuf,
 }
 
@@ -178,13 +179,18 @@ fn headless(args: &Run, prepared: &Prepared, verbosity: Verbosity) -> Result<(),
     };
     let mut stdout = io::stdout().lock();
     let mut told = Ok(());
+    let bar = verbosity.progress(participants.into());
     let summary = headless
         .run(participants, OffsetDateTime::now_utc, |progress| {
+            if let Progress::Finished(_) = progress {
+                bar.inc(1);
+            }
             if told.is_ok() {
                 told = tell(&mut stdout, &progress, args.format, verbosity);
             }
         })
         .map_err(failure_of_run)?;
+    bar.finish_and_clear();
     told?;
     for warning in &summary.warnings {
         eprintln!("warning: {warning}");

@@ -187,3 +187,36 @@ fn a_session_with_nothing_left_says_thanks() {
     feed(&mut session, &[(0, Event::Begin)]);
     assert_eq!(session.screen(), &Screen::Closing);
 }
+
+#[test]
+fn a_frame_reported_late_counts_from_its_own_time() {
+    let mut session = session();
+    feed(
+        &mut session,
+        &[
+            (0, Event::Begin),
+            (0, Event::StartPair(0)),
+            (0, Event::Shown),
+            (100, Event::Continue),
+            (130, Event::FocusLost),
+            (116, Event::Shown),
+        ],
+    );
+    assert_eq!(session.wake_at(), Some(at(GREY_NS + 116)));
+}
+
+#[test]
+fn a_frame_from_before_a_screen_is_not_its_onset() {
+    let mut session = session();
+    feed(
+        &mut session,
+        &[
+            (0, Event::Begin),
+            (0, Event::StartPair(0)),
+            (0, Event::Shown),
+            (100, Event::Continue),
+            (90, Event::Shown),
+        ],
+    );
+    assert_eq!(session.wake_at(), Some(at(GREY_NS + 100)));
+}
