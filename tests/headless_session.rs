@@ -1,4 +1,5 @@
 //! The binary runs whole studies without a window.
+#![allow(clippy::unwrap_used)]
 
 mod tiny_study;
 

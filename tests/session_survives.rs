@@ -1,5 +1,6 @@
 //! What happens to answers when the program is killed or the disk is full.
 #![cfg(unix)]
+#![allow(clippy::unwrap_used)]
 
 mod tiny_study;
 
