@@ -53,7 +53,10 @@ fn files_of(folder: &Path) -> BTreeMap<String, Vec<u8>> {
         .unwrap()
         .map(|entry| entry.unwrap())
         .map(|entry| {
-            (entry.file_name().into_string().unwrap(), std::fs::read(entry.path()).unwrap())
+            (
+                entry.file_name().into_string().unwrap(),
+                std::fs::read(entry.path()).unwrap(),
+            )
         })
         .collect()
 }
@@ -69,10 +72,19 @@ fn render_session_analysis() {
     manifest.verify(&first).unwrap();
     assert_eq!(manifest.pairs.len(), 7);
     for pair in &manifest.pairs {
-        assert_ne!(pair.first.sha256, pair.second.sha256, "{}: two equal images", pair.condition);
+        assert_ne!(
+            pair.first.sha256, pair.second.sha256,
+            "{}: two equal images",
+            pair.condition
+        );
         for image in [&pair.first, &pair.second] {
             let has_occlusion = image.passes.iter().any(|pass| pass.pass == "occlusion");
-            assert_eq!(has_occlusion, image.technique != "none", "{}", image.file.display());
+            assert_eq!(
+                has_occlusion,
+                image.technique != "none",
+                "{}",
+                image.file.display()
+            );
         }
     }
 
@@ -84,7 +96,14 @@ fn render_session_analysis() {
     assert!(images == again, "a second render gave other bytes");
 
     // One condition drawn again joins the others.
-    let only = ["render", text(&set), "--out", text(&first), "--only", "dragon-low"];
+    let only = [
+        "render",
+        text(&set),
+        "--out",
+        text(&first),
+        "--only",
+        "dragon-low",
+    ];
     succeed(greyfield(&only));
     assert_eq!(Manifest::load(&first).unwrap().pairs.len(), 7);
 
@@ -116,7 +135,14 @@ fn an_altered_image_is_refused() {
     let dir = tempfile::tempdir().unwrap();
     let (set, protocol) = small_study(dir.path());
     let stimuli = dir.path().join("images");
-    succeed(greyfield(&["render", text(&set), "--out", text(&stimuli), "--only", "dragon-low"]));
+    succeed(greyfield(&[
+        "render",
+        text(&set),
+        "--out",
+        text(&stimuli),
+        "--only",
+        "dragon-low",
+    ]));
     let image = stimuli.join("dragon-low--crytek24.png");
     let whole = std::fs::read(&image).unwrap();
     let results = dir.path().join("results");
@@ -130,9 +156,16 @@ fn an_altered_image_is_refused() {
     std::fs::write(&image, &whole[..whole.len() / 2]).unwrap();
     let (code, message) = run();
     assert_eq!(code, 2, "{message}");
-    assert!(message.contains("dragon-low--crytek24.png") && message.contains("damaged"), "{message}");
+    assert!(
+        message.contains("dragon-low--crytek24.png") && message.contains("damaged"),
+        "{message}"
+    );
 
-    std::fs::write(&image, std::fs::read(stimuli.join("dragon-low--blizzard24.png")).unwrap()).unwrap();
+    std::fs::write(
+        &image,
+        std::fs::read(stimuli.join("dragon-low--blizzard24.png")).unwrap(),
+    )
+    .unwrap();
     let (code, message) = run();
     assert_eq!(code, 2, "{message}");
     assert!(message.contains("changed"), "{message}");
@@ -155,9 +188,17 @@ fn wrong_input_is_one_clear_message() {
 
     let (code, message) = fail(greyfield(&["render", text(&set), "--only", "dragon-lou"]));
     assert_eq!(code, 2);
-    assert!(message.contains("dragon-lou") && message.contains("dragon-low"), "{message}");
+    assert!(
+        message.contains("dragon-lou") && message.contains("dragon-low"),
+        "{message}"
+    );
 
-    let (code, message) = fail(greyfield(&["render", text(&set), "--adapter", "no such card"]));
+    let (code, message) = fail(greyfield(&[
+        "render",
+        text(&set),
+        "--adapter",
+        "no such card",
+    ]));
     assert_eq!(code, 1);
     assert!(message.contains("no such card"), "{message}");
 
@@ -172,7 +213,12 @@ fn wrong_input_is_one_clear_message() {
     std::fs::write(&set, config.replacen("crytek24", "crytec24", 1)).unwrap();
     let (code, message) = fail(greyfield(&["render", text(&set)]));
     assert_eq!(code, 2);
-    let parts = ["thesis-2010.toml:", "condition[0].first", "crytec24", "crytek24"];
+    let parts = [
+        "thesis-2010.toml:",
+        "condition[0].first",
+        "crytec24",
+        "crytek24",
+    ];
     assert!(parts.iter().all(|part| message.contains(part)), "{message}");
 }
 
@@ -182,7 +228,9 @@ fn without_an_adapter_the_package_to_install_is_named() {
     let dir = tempfile::tempdir().unwrap();
     let (set, _) = small_study(dir.path());
     let mut command = greyfield(&["render", text(&set)]);
-    command.env("VK_DRIVER_FILES", "/nonexistent").env("VK_ICD_FILENAMES", "/nonexistent");
+    command
+        .env("VK_DRIVER_FILES", "/nonexistent")
+        .env("VK_ICD_FILENAMES", "/nonexistent");
     let (code, message) = fail(command);
     assert_eq!(code, 1);
     assert!(message.contains("mesa-vulkan-drivers"), "{message}");
@@ -192,11 +240,20 @@ fn without_an_adapter_the_package_to_install_is_named() {
 fn explain_draws_nothing() {
     let dir = tempfile::tempdir().unwrap();
     let (set, _) = small_study(dir.path());
-    let plan = succeed(greyfield(&["render", text(&set), "--explain", "--only", "sponza-moderate-h1"]));
+    let plan = succeed(greyfield(&[
+        "render",
+        text(&set),
+        "--explain",
+        "--only",
+        "sponza-moderate-h1",
+    ]));
     let [none, blizzard] = plan.split("blizzard24 (").collect::<Vec<_>>()[..] else {
         panic!("two plans are expected:\n{plan}");
     };
-    assert!(none.contains("- occlusion") && !none.contains("+ occlusion"), "{plan}");
+    assert!(
+        none.contains("- occlusion") && !none.contains("+ occlusion"),
+        "{plan}"
+    );
     assert!(blizzard.contains("+ occlusion "), "{plan}");
     assert!(!set.with_file_name("thesis-2010").exists());
 }

@@ -22,7 +22,10 @@ const GROUND: Rgb<u8> = Rgb([128; 3]);
 pub fn contact_sheet(manifest: &Manifest, folder: &Path) -> Result<Picture, StimulusError> {
     let mut rows = Vec::new();
     for pair in &manifest.pairs {
-        rows.push([thumbnail(&pair.first, folder)?, thumbnail(&pair.second, folder)?]);
+        rows.push([
+            thumbnail(&pair.first, folder)?,
+            thumbnail(&pair.second, folder)?,
+        ]);
     }
     let height_px = rows.iter().map(|row| row_height(row) + GAP_PX).sum::<u32>() + GAP_PX;
     let width_px = 2 * THUMBNAIL_PX + 3 * GAP_PX;
@@ -34,8 +37,15 @@ pub fn contact_sheet(manifest: &Manifest, folder: &Path) -> Result<Picture, Stim
         }
         y += row_height(row) + GAP_PX;
     }
-    let rgba8 = sheet.pixels().flat_map(|p| [p[0], p[1], p[2], 255]).collect();
-    Ok(Picture { width_px, height_px, rgba8 })
+    let rgba8 = sheet
+        .pixels()
+        .flat_map(|p| [p[0], p[1], p[2], 255])
+        .collect();
+    Ok(Picture {
+        width_px,
+        height_px,
+        rgba8,
+    })
 }
 
 fn row_height(row: &[RgbImage; 2]) -> u32 {
@@ -46,10 +56,19 @@ fn thumbnail(record: &ImageRecord, folder: &Path) -> Result<RgbImage, StimulusEr
     let picture = record.load(folder)?;
     let image = RgbImage::from_fn(picture.width_px, picture.height_px, |x, y| {
         let at = 4 * (y as usize * picture.width_px as usize + x as usize);
-        Rgb([picture.rgba8[at], picture.rgba8[at + 1], picture.rgba8[at + 2]])
+        Rgb([
+            picture.rgba8[at],
+            picture.rgba8[at + 1],
+            picture.rgba8[at + 2],
+        ])
     });
     let height = (u64::from(picture.height_px) * u64::from(THUMBNAIL_PX)
         / u64::from(picture.width_px.max(1)))
     .clamp(1, 8192) as u32;
-    Ok(imageops::resize(&image, THUMBNAIL_PX, height, FilterType::CatmullRom))
+    Ok(imageops::resize(
+        &image,
+        THUMBNAIL_PX,
+        height,
+        FilterType::CatmullRom,
+    ))
 }
