@@ -10,8 +10,10 @@ pub mod config;
 pub mod environment;
 pub mod geometry;
 pub mod lighting;
+pub mod modelling;
 pub mod primitives;
 pub mod procedural;
+pub mod texture;
 
 pub use camera::Camera;
 pub use config::{SceneConfig, SceneError};

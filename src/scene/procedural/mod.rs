@@ -1,11 +1,13 @@
 //! Scenes that need no file: generated from a seed, the same on every machine.
 //!
-//! Each generator is one file that declares itself as a [`Generator`], and one
-//! line in [`GENERATORS`].
+//! Each generator is one file or folder that declares itself as a [`Generator`], and
+//! one line in [`GENERATORS`].
+
+pub mod atrium;
+pub mod figures;
+pub mod figurine;
 
 use super::Geometry;
-
-mod atrium;
 
 /// A procedural scene.
 #[derive(Debug)]
@@ -19,7 +21,11 @@ pub struct Generator {
 }
 
 /// Every generator there is.
-pub const GENERATORS: &[&Generator] = &[&atrium::ATRIUM];
+pub const GENERATORS: &[&Generator] = &[
+    &atrium::GENERATOR,
+    &figurine::GENERATOR,
+    &figures::GENERATOR,
+];
 
 /// The generator of that name.
 #[must_use]
