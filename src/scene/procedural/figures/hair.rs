@@ -31,16 +31,32 @@ pub(super) fn layer(pose: &Pose, build: &Build, noise: Noise) -> Layer {
     if build.woman {
         s.add(egg([0.0, 0.034, -0.017], [0.0835, 0.0895, 0.1010]).with_relief(0.007, combed));
     } else {
-        s.add(egg([0.0, 0.040, -0.014], [0.0825, 0.0905, 0.1000]).with_relief(0.007, combed));
-        s.add(egg([0.012, 0.098, 0.040], [0.052, 0.030, 0.045]).blended(0.02 * k).with_relief(0.007, combed));
+        s.add(egg([0.0, 0.040, -0.014], [0.0800, 0.0880, 0.0985]).with_relief(0.007, combed));
+        s.add(
+            egg([0.010, 0.094, 0.044], [0.050, 0.028, 0.042])
+                .blended(0.02 * k)
+                .with_relief(0.007, combed),
+        );
     }
     // Free the face, the ears and the nape.
     let low = if build.woman { 0.0 } else { 0.004 };
-    s.add(egg([0.0, -0.022 + low, 0.092], [0.068, 0.092, 0.062]).carving().blended(0.008));
+    s.add(
+        egg([0.0, -0.022 + low, 0.092], [0.068, 0.092, 0.062])
+            .carving()
+            .blended(0.008),
+    );
     for side in [-1.0, 1.0] {
-        s.add(egg([side * 0.092, -0.030, 0.012], [0.026, 0.056, 0.052]).carving().blended(0.008));
+        s.add(
+            egg([side * 0.092, -0.030, 0.012], [0.026, 0.056, 0.052])
+                .carving()
+                .blended(0.008),
+        );
     }
-    s.add(egg([0.0, -0.125, -0.020], [0.13, 0.066, 0.13]).carving().blended(0.012));
+    s.add(
+        egg([0.0, -0.125, -0.020], [0.13, 0.066, 0.13])
+            .carving()
+            .blended(0.012),
+    );
     if build.woman {
         tail(&mut s, pose, k, noise);
     }
@@ -49,7 +65,7 @@ pub(super) fn layer(pose: &Pose, build: &Build, noise: Noise) -> Layer {
         name: "hair",
         stuff: Stuff::Hair,
         sculpture: s,
-        cell_m: 0.0022,
+        cell_m: 0.0032,
         paint: Box::new(move |p, _| {
             let tone = noise.gradient(Vec3::new(p.x * 160.0, p.y * 26.0, p.z * 60.0));
             color * (1.0 + 0.3 * tone + 0.25 * smoothstep(0.0, 0.6, tone))
@@ -67,10 +83,15 @@ fn tail(s: &mut Sculpture, pose: &Pose, k: f32, noise: Noise) {
             (at([x, y, z]), r * k)
         };
         for i in 0..STEPS {
-            s.add(Part::limb(knot(i), knot(i + 1), Vec3::Z).blended(blend).with_relief(0.003, move |p| {
-                let around = libm::atan2f(p.x, p.z);
-                0.0028 * noise.gradient(Vec3::new(around * 3.0, 2.0 * p.y, 5.5)) + 0.001 * sin(around * 9.0)
-            }));
+            s.add(
+                Part::limb(knot(i), knot(i + 1), Vec3::Z)
+                    .blended(blend)
+                    .with_relief(0.003, move |p| {
+                        let around = libm::atan2f(p.x, p.z);
+                        0.0028 * noise.gradient(Vec3::new(around * 3.0, 2.0 * p.y, 5.5))
+                            + 0.001 * sin(around * 9.0)
+                    }),
+            );
         }
     };
     strand(

@@ -30,15 +30,25 @@ impl Volume {
             |(low, high), (a, b)| (low.min(a), high.max(b)),
         );
         let low_m = low - Vec3::splat(MARGIN_M);
-        let across = ((high + Vec3::splat(MARGIN_M) - low_m) / CELL_M).ceil().as_ivec3() + IVec3::ONE;
+        let across = ((high + Vec3::splat(MARGIN_M) - low_m) / CELL_M)
+            .ceil()
+            .as_ivec3()
+            + IVec3::ONE;
         let count = across.x * across.y * across.z;
         let distances_m = (0..count)
             .into_par_iter()
             .with_min_len(1024)
             .map(|i| {
-                let at = IVec3::new(i % across.x, i / across.x % across.y, i / (across.x * across.y));
+                let at = IVec3::new(
+                    i % across.x,
+                    i / across.x % across.y,
+                    i / (across.x * across.y),
+                );
                 let p = low_m + at.as_vec3() * CELL_M;
-                layers.iter().map(|layer| layer.distance_m(p)).fold(f32::MAX, f32::min)
+                layers
+                    .iter()
+                    .map(|layer| layer.distance_m(p))
+                    .fold(f32::MAX, f32::min)
             })
             .collect();
         Self {
@@ -50,7 +60,8 @@ impl Volume {
 
     /// Distance at `p`, trilinear, metres.
     fn at(&self, p: Vec3) -> f32 {
-        let q = ((p - self.low_m) / CELL_M).clamp(Vec3::ZERO, (self.across - IVec3::splat(2)).as_vec3());
+        let q = ((p - self.low_m) / CELL_M)
+            .clamp(Vec3::ZERO, (self.across - IVec3::splat(2)).as_vec3());
         let base = q.floor();
         let (cell, f) = (base.as_ivec3(), q - base);
         let pick = |x: i32, y: i32, z: i32| {
@@ -93,7 +104,8 @@ pub(super) fn colors(surface: &Surface, layer: &Layer, volume: &Volume, noise: N
             let groove = smoothstep(0.0, -160.0, curvature);
             let ridge = smoothstep(60.0, 320.0, curvature);
             let worn = 0.5 + 0.5 * noise.fbm(p * 9.0, 3);
-            let shade = (1.0 - wide * (1.0 - open)) * (1.0 - fine * groove) * (1.0 + edge * ridge * worn);
+            let shade =
+                (1.0 - wide * (1.0 - open)) * (1.0 - fine * groove) * (1.0 + edge * ridge * worn);
             let base = (layer.paint)(p, n);
             // Hollows of skin turn red, not grey: light has gone through it.
             let tint = if layer.stuff == Stuff::Skin {

@@ -35,7 +35,13 @@ pub(super) struct Layer {
 }
 
 impl Layer {
-    pub fn dyed(name: &'static str, stuff: Stuff, sculpture: Sculpture, cell_m: f32, dye: u32) -> Self {
+    pub fn dyed(
+        name: &'static str,
+        stuff: Stuff,
+        sculpture: Sculpture,
+        cell_m: f32,
+        dye: u32,
+    ) -> Self {
         let color = srgb(dye);
         Self {
             name,
@@ -116,8 +122,14 @@ impl Person {
         let top = garments::top(pose, build, noise);
         let mut layers = Vec::new();
         layers.extend(accessories::over(pose, build, noise, &top, &trousers));
-        layers.push(Layer::dyed("trousers", Stuff::Cloth, trousers, 0.0042, build.trousers));
-        layers.push(Layer::dyed("jacket", Stuff::Cloth, top, 0.0042, build.top));
+        layers.push(Layer::dyed(
+            "trousers",
+            Stuff::Cloth,
+            trousers,
+            0.0058,
+            build.trousers,
+        ));
+        layers.push(Layer::dyed("jacket", Stuff::Cloth, top, 0.0056, build.top));
         layers.push(boots::layer(pose, build, noise));
         layers.extend(hands::layers(pose, build));
         layers.push(head::layer(pose, build, noise));

@@ -18,20 +18,48 @@ pub(super) fn meshes(materials: &Materials, seed: u64) -> Vec<Mesh> {
             let low = Vec3::new(column as f32 * 1.5 + 0.4, -0.2, row as f32 * 1.5 - 0.9);
             let high = low + Vec3::new(1.488, 0.2, 1.488);
             // Slabs have settled by a few millimetres; those they stand on have not.
-            let settled = if row == 0 && column.abs() <= 1 { 0.0 } else { draw(-0.006, 0.0) };
+            let settled = if row == 0 && column.abs() <= 1 {
+                0.0
+            } else {
+                draw(-0.006, 0.0)
+            };
             let tint = draw(0.9, 1.04);
             concrete.tint(Vec3::splat(tint));
-            block(&mut concrete, &Frame::WORLD, low + Vec3::Y * settled, high + Vec3::Y * settled, 0.010);
+            block(
+                &mut concrete,
+                &Frame::WORLD,
+                low + Vec3::Y * settled,
+                high + Vec3::Y * settled,
+                0.010,
+            );
         }
     }
     let mut brick = MeshBuilder::new();
     let wall_z = -1.7;
-    block(&mut brick, &Frame::WORLD, Vec3::new(-6.0, 0.35, wall_z - 0.3), Vec3::new(6.0, 3.6, wall_z), 0.01);
+    block(
+        &mut brick,
+        &Frame::WORLD,
+        Vec3::new(-6.0, 0.35, wall_z - 0.3),
+        Vec3::new(6.0, 3.6, wall_z),
+        0.01,
+    );
     concrete.tint(Vec3::splat(0.92));
-    block(&mut concrete, &Frame::WORLD, Vec3::new(-6.0, -0.1, wall_z - 0.3), Vec3::new(6.0, 0.36, wall_z + 0.06), 0.02);
+    block(
+        &mut concrete,
+        &Frame::WORLD,
+        Vec3::new(-6.0, -0.1, wall_z - 0.3),
+        Vec3::new(6.0, 0.36, wall_z + 0.06),
+        0.02,
+    );
     for i in 0..4 {
         let x = -3.9 + 2.6 * i as f32;
-        block(&mut brick, &Frame::WORLD, Vec3::new(x - 0.25, 0.35, wall_z - 0.2), Vec3::new(x + 0.25, 3.6, wall_z + 0.13), 0.01);
+        block(
+            &mut brick,
+            &Frame::WORLD,
+            Vec3::new(x - 0.25, 0.35, wall_z - 0.2),
+            Vec3::new(x + 0.25, 3.6, wall_z + 0.13),
+            0.01,
+        );
     }
     let mut wood = MeshBuilder::new();
     for (x, y, z, size, turn) in [
@@ -40,7 +68,12 @@ pub(super) fn meshes(materials: &Materials, seed: u64) -> Vec<Mesh> {
         (1.30, 0.0, -0.95, 0.80, -0.25),
         (2.15, 0.0, -1.15, 0.62, 0.3),
     ] {
-        crate_box(&mut wood, &Frame::turned(Vec3::new(x, y, z), turn), size, &mut draw);
+        crate_box(
+            &mut wood,
+            &Frame::turned(Vec3::new(x, y, z), turn),
+            size,
+            &mut draw,
+        );
     }
     vec![
         concrete.finish("yard", materials.concrete.0, materials.concrete.1),
@@ -50,11 +83,19 @@ pub(super) fn meshes(materials: &Materials, seed: u64) -> Vec<Mesh> {
 }
 
 /// A crate of planks in a frame of battens; origin at the middle of its foot.
-fn crate_box(wood: &mut MeshBuilder, frame: &Frame, size: f32, draw: &mut impl FnMut(f32, f32) -> f32) {
+fn crate_box(
+    wood: &mut MeshBuilder,
+    frame: &Frame,
+    size: f32,
+    draw: &mut impl FnMut(f32, f32) -> f32,
+) {
     const PLANKS: u32 = 5;
     let half = 0.5 * size;
     for turn in 0..4 {
-        let side = frame.then(&Frame::turned(Vec3::Y * half, turn as f32 * std::f32::consts::FRAC_PI_2));
+        let side = frame.then(&Frame::turned(
+            Vec3::Y * half,
+            turn as f32 * std::f32::consts::FRAC_PI_2,
+        ));
         let wide = size / PLANKS as f32;
         for i in 0..PLANKS {
             let y = -half + i as f32 * wide;
