@@ -1,8 +1,15 @@
 //! The command line: one file a subcommand, no logic of its own.
 
+mod analyse;
+mod order;
+mod output;
+mod render;
+mod run;
+
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+pub use output::Verbosity;
 
 /// Psychophysics of ambient occlusion: render pairs, run sessions, analyse choices.
 #[derive(Parser)]
@@ -19,7 +26,12 @@ struct Cli {
 }
 
 #[derive(Subcommand)]
-enum Command {}
+enum Command {
+    Render(render::RenderArgs),
+    Run(Box<run::Run>),
+    Order(order::Order),
+    Analyse(analyse::AnalyseArgs),
+}
 
 /// A failure with the exit code it ends in.
 #[derive(Debug)]
@@ -63,5 +75,14 @@ pub fn main() -> ExitCode {
 }
 
 fn run(cli: Cli) -> Result<(), Failure> {
-    match cli.command {}
+    let verbosity = Verbosity {
+        quiet: cli.quiet,
+        level: cli.verbose,
+    };
+    match cli.command {
+        Command::Render(args) => render::run(&args, verbosity),
+        Command::Run(args) => run::run(&args, verbosity),
+        Command::Order(args) => order::run(&args),
+        Command::Analyse(args) => analyse::run(&args),
+    }
 }

@@ -3,7 +3,40 @@
 //!
 //! A participant's data is sacred: append, sync, never truncate, never overwrite,
 //! never reuse a slot.
+//!
+//! ```text
+//! RESULTS/study.json                 the one protocol this folder belongs to
+//! RESULTS/materials/protocol.toml    that protocol, as it was
+//! RESULTS/dataset_description.json   Psych-DS: what every column means
+//! RESULTS/slots/                     who has which place in the design, and what became of it
+//! RESULTS/data/…_data.csv            one file a participant's session, one row a trial
+//! ```
 
+pub mod columns;
+pub mod description;
+pub mod error;
+mod files;
+pub mod line;
+pub mod log;
+pub mod participant;
+pub mod read;
 pub mod row;
+mod slots;
+pub mod spreadsheet;
+pub mod study;
+#[cfg(test)]
+mod tests;
 
-pub use row::TrialRow;
+pub use error::RecordError;
+pub use log::RowLog;
+pub use participant::ParticipantId;
+pub use read::{Rows, Warning, read_folder, read_rows};
+pub use row::{InputDevice, OnsetMethod, Outcome, TrialRow};
+pub use slots::Release;
+pub use study::{Enrolment, Standing, Study, StudyIdentity};
+
+/// Folder of the data files in a results folder.
+pub const DATA_FOLDER: &str = "data";
+
+/// How the name of every data file ends.
+pub const DATA_SUFFIX: &str = "_data.csv";

@@ -10,6 +10,7 @@ pub mod figurine;
 use super::Geometry;
 
 /// A procedural scene.
+#[derive(Debug)]
 pub struct Generator {
     /// Name in scene configs (`[geometry] generator = "atrium"`).
     pub name: &'static str,
