@@ -332,20 +332,28 @@ fn crossing_m(grid: &Grid, (base, axis): Edge) -> Vec3 {
     point(t.clamp(0.06, 0.94))
 }
 
-/// Gradient (unit) and Laplacian of the distance, by differences over a cell.
+/// Gradient (unit) and Laplacian of the distance, from its values at the corners of a
+/// tetrahedron round `p` (Quilez, "Normals for an SDF").
 fn shape_at(grid: &Grid, lattice: IVec3, p: Vec3) -> (Vec3, f32) {
-    let h = 0.6 * grid.cell_m;
+    const CORNERS: [Vec3; 4] = [
+        Vec3::new(1.0, 1.0, 1.0),
+        Vec3::new(1.0, -1.0, -1.0),
+        Vec3::new(-1.0, 1.0, -1.0),
+        Vec3::new(-1.0, -1.0, 1.0),
+    ];
+    let h = 0.4 * grid.cell_m;
     let distance = |p: Vec3| match grid.near(lattice) {
         Some(near) => grid.sculpture.distance_among_m(p, near),
         None => grid.sculpture.distance_m(p),
     };
-    let (mut gradient, mut sum) = (Vec3::ZERO, -6.0 * distance(p));
-    for axis in Vec3::AXES {
-        let (ahead, behind) = (distance(p + axis * h), distance(p - axis * h));
-        gradient += axis * (ahead - behind);
-        sum += ahead + behind;
+    let (mut gradient, mut sum) = (Vec3::ZERO, -4.0 * distance(p));
+    for corner in CORNERS {
+        let d = distance(p + corner * h);
+        gradient += corner * d;
+        sum += d;
     }
-    (gradient.normalize_or(Vec3::Y), sum / (h * h))
+    // Taylor: the sum of the four is 4 d + 2 h² Δd.
+    (gradient.normalize_or(Vec3::Y), sum / (2.0 * h * h))
 }
 
 #[cfg(test)]

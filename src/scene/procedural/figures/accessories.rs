@@ -45,7 +45,7 @@ pub(super) fn over(
         satchel(&mut leather, &mut metal, pose, &cloth);
     }
     vec![
-        Layer::dyed("leather", Stuff::Leather, leather, 0.0042, build.belts),
+        Layer::dyed("leather", Stuff::Leather, leather, 0.0048, build.belts),
         Layer::dyed("buckles", Stuff::Metal, metal, 0.0026, 0xb8a06a),
     ]
 }
@@ -208,8 +208,8 @@ fn waistcoat(leather: &mut Sculpture, pose: &Pose, noise: Noise) {
         }),
     );
     for side in [-1.0, 1.0] {
-        let bust = Frame::at(pose.chest + Vec3::new(side * 0.064, 0.0, 0.074));
-        leather.add(Part::ellipsoid(bust, Vec3::new(0.066, 0.068, 0.060)).blended(0.05));
+        let bust = Frame::at(pose.chest + Vec3::new(side * 0.060, 0.0, 0.062));
+        leather.add(Part::ellipsoid(bust, Vec3::new(0.068, 0.072, 0.060)).blended(0.09));
     }
     let waist = Frame::along(pose.waist + Vec3::Y * 0.03, up, Vec3::Z);
     leather.add(Part::ellipsoid(waist, Vec3::new(0.148, 0.125, 0.115)).blended(0.06));

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::person::Build;
 use super::pose::Pose;
-use crate::scene::modelling::math::{bump, lerp, pow, sin, smoothstep};
+use crate::scene::modelling::math::{bump, lerp, sin, smoothstep};
 use crate::scene::modelling::sculpture::{Part, Sculpture};
 use crate::scene::modelling::{Frame, Noise};
 
@@ -16,7 +16,7 @@ fn wrinkles(noise: Noise, p: Vec3, fineness: f32, slant: f32) -> f32 {
     let q = Vec3::new(p.x * 0.42, across + 0.35 * warp / fineness, p.z * 0.42) * fineness;
     let v = noise.gradient(q);
     let crest = 1.0 - 2.0 * v.abs().min(0.5);
-    2.0 * pow(crest, 1.7) - 1.0
+    2.0 * crest * crest.sqrt() - 1.05
 }
 
 /// Part of a limb, with wrinkles whose height at `t` (0 to 1 along it) is `height_m(t)`.
@@ -284,7 +284,7 @@ fn shoulders(s: &mut Sculpture, pose: &Pose, build: &Build, noise: Noise) {
         let cap = Frame::at(shoulder + Vec3::new(0.0, -0.012, 0.0));
         s.add(
             Part::ellipsoid(cap, Vec3::new(0.060, 0.068, 0.066) * g)
-                .blended(0.04)
+                .blended(0.07)
                 .with_relief(0.005, move |p| 0.003 * wrinkles(noise, p, 28.0, 0.9)),
         );
     }

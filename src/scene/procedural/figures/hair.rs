@@ -41,7 +41,7 @@ pub(super) fn layer(pose: &Pose, build: &Build, noise: Noise) -> Layer {
     // Free the face, the ears and the nape.
     let low = if build.woman { 0.0 } else { 0.004 };
     s.add(
-        egg([0.0, -0.022 + low, 0.092], [0.068, 0.092, 0.062])
+        egg([0.0, -0.026 + low, 0.092], [0.064, 0.084, 0.060])
             .carving()
             .blended(0.008),
     );

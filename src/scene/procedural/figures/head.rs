@@ -69,7 +69,7 @@ pub(super) fn layer(pose: &Pose, build: &Build, noise: Noise) -> Layer {
         name: "head",
         stuff: Stuff::Skin,
         sculpture: s,
-        cell_m: 0.0023,
+        cell_m: 0.0026,
         paint: paint(pose.head, *build, noise),
     }
 }
@@ -203,14 +203,14 @@ fn mouth(c: &mut Sculptor, woman: bool) {
     c.add(c.egg([0.0, -0.070, 0.074], [0.026, 0.020, 0.014], 0.016));
     for x in [-1.0, 1.0] {
         c.add(c.bone(
-            [x * 0.0215, -0.0710, 0.0785],
+            [x * 0.0245, -0.0712, 0.0785],
             0.0026,
             [x * 0.004, -0.0665, 0.0900],
             0.0042 * full,
             0.004,
         ));
         c.add(c.bone(
-            [x * 0.0205, -0.0720, 0.0785],
+            [x * 0.0235, -0.0720, 0.0785],
             0.0026,
             [x * 0.004, -0.0765, 0.0885],
             0.0052 * full,
@@ -220,7 +220,7 @@ fn mouth(c: &mut Sculptor, woman: bool) {
     for x in [-1.0, 1.0] {
         c.add(
             c.bone(
-                [x * 0.0235, -0.0712, 0.0840],
+                [x * 0.0265, -0.0712, 0.0830],
                 0.0010,
                 [0.0, -0.0712, 0.0985],
                 0.0010,
@@ -230,7 +230,7 @@ fn mouth(c: &mut Sculptor, woman: bool) {
         );
     }
     c.add(
-        c.egg([0.0, -0.0875, 0.0865], [0.016, 0.0055, 0.0050], 0.006)
+        c.egg([0.0, -0.0880, 0.0900], [0.016, 0.0050, 0.0045], 0.006)
             .carving(),
     );
 }
@@ -304,7 +304,7 @@ fn paint(
             + 0.8 * smoothstep(0.070, 0.078, x) * bump(-0.012, 0.04, y);
         let mut color = skin * Vec3::new(1.0, 1.0 - 0.16 * flush, 1.0 - 0.14 * flush);
         color *= 1.0 + 0.06 * noise.fbm(p * 120.0, 2);
-        let lip_line = Vec2::new(x / 0.0235, (y + 0.0712) / 0.0092).length();
+        let lip_line = Vec2::new(x / 0.0262, (y + 0.0712) / 0.0092).length();
         let on_lips = smoothstep(1.05, 0.85, lip_line) * smoothstep(0.074, 0.080, q.z);
         color = color.lerp(lips, 0.75 * on_lips);
         let arch = 0.0205 + 0.10 * x - 2.4 * (x - 0.028) * (x - 0.028) - 0.003;

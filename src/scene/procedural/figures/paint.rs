@@ -11,7 +11,7 @@ use crate::scene::modelling::math::smoothstep;
 use crate::scene::modelling::polygonise::Surface;
 use crate::scene::modelling::sculpture::Sculpture;
 
-const CELL_M: f32 = 0.016;
+const CELL_M: f32 = 0.018;
 /// How far the volume reaches beyond the figure, metres.
 const MARGIN_M: f32 = 0.12;
 
@@ -25,9 +25,10 @@ pub(super) struct Volume {
 impl Volume {
     pub fn new<'a>(layers: impl Iterator<Item = &'a Sculpture>) -> Self {
         let layers: Vec<&Sculpture> = layers.collect();
-        let (low, high) = layers.iter().map(|layer| layer.bounds_m()).fold(
+        let boxes: Vec<(Vec3, Vec3)> = layers.iter().map(|layer| layer.bounds_m()).collect();
+        let (low, high) = boxes.iter().fold(
             (Vec3::splat(f32::MAX), Vec3::splat(f32::MIN)),
-            |(low, high), (a, b)| (low.min(a), high.max(b)),
+            |(low, high), &(a, b)| (low.min(a), high.max(b)),
         );
         let low_m = low - Vec3::splat(MARGIN_M);
         let across = ((high + Vec3::splat(MARGIN_M) - low_m) / CELL_M)
@@ -45,10 +46,17 @@ impl Volume {
                     i / (across.x * across.y),
                 );
                 let p = low_m + at.as_vec3() * CELL_M;
+                // A layer whose box is further away than what is found already cannot count.
                 layers
                     .iter()
-                    .map(|layer| layer.distance_m(p))
-                    .fold(f32::MAX, f32::min)
+                    .zip(&boxes)
+                    .fold(f32::MAX, |so_far, (layer, &(low, high))| {
+                        let outside = (low - p).max(p - high).max(Vec3::ZERO);
+                        if outside.length() >= so_far {
+                            return so_far;
+                        }
+                        so_far.min(layer.distance_m(p))
+                    })
             })
             .collect();
         Self {

@@ -1,6 +1,7 @@
 //! A person: layers of clothing, each a closed sculpture of its own, painted and meshed.
 
 use glam::Vec3;
+use rayon::prelude::*;
 
 use super::pose::Pose;
 use super::{Materials, accessories, boots, garments, hair, hands, head, paint};
@@ -148,7 +149,7 @@ impl Person {
         let volume = paint::Volume::new(self.layers.iter().map(|layer| &layer.sculpture));
         let mut meshes: Vec<Mesh> = self
             .layers
-            .iter()
+            .par_iter()
             .map(|layer| {
                 let surface = polygonise(&layer.sculpture, layer.cell_m);
                 let colors = paint::colors(&surface, layer, &volume, self.noise);

@@ -34,6 +34,10 @@ pub(super) fn meshes(materials: &Materials, seed: u64) -> Vec<Mesh> {
             );
         }
     }
+    // Earth in the joints.
+    concrete.tint(Vec3::new(0.12, 0.10, 0.08));
+    let bed = [[-5.0, 6.0], [5.0, 6.0], [5.0, -4.0], [-5.0, -4.0]];
+    concrete.quad(bed.map(|[x, z]| Vec3::new(x, -0.03, z)));
     let mut brick = MeshBuilder::new();
     let wall_z = -1.7;
     block(
