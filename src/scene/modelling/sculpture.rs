@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::math::Frame;
+use super::math::{Frame, smoothstep};
 use super::sdf::{Shape, smooth_carve, smooth_union};
 
 /// How far the surface stands out (metres) at a point in its part's own frame.
@@ -98,10 +98,13 @@ impl Part {
         let local = self.frame.local(p);
         let d = self.shape.distance_m(local);
         match &self.relief {
-            // Far from the surface its relief cannot be told, and is the dear part.
-            Some((relief, limit)) if d.abs() < 4.0 * limit => d - relief(local),
-            Some((_, limit)) if d < 0.0 => d + limit,
-            Some((_, limit)) => d - limit,
+            // Far from the part's own surface (inside a blend, say) its relief fades out:
+            // it cannot be told there, and is the dear part.
+            Some((relief, limit)) if d.abs() < 4.0 * limit => {
+                let fade = smoothstep(4.0 * limit, 2.0 * limit, d.abs());
+                d - fade * relief(local)
+            }
+            Some(_) => d,
             None => d,
         }
     }
