@@ -1,0 +1,185 @@
+//! How the application looks: greys only, so that nothing on the screen tints
+//! what the eye sees next; large, plain type.
+
+use eframe::egui::{self, Color32, FontFamily, FontId, Stroke, TextStyle, Visuals};
+
+/// Background of the experimenter's pages (8-bit sRGB).
+pub const PAGE: u8 = 226;
+const CARD: u8 = 243;
+const INK: Color32 = Color32::from_gray(20);
+const QUIET_INK: Color32 = Color32::from_gray(84);
+const LINE: Color32 = Color32::from_gray(196);
+
+/// Side length under which nothing that can be clicked gets smaller, points.
+const TARGET: f32 = 36.0;
+
+/// Installs type sizes, spacing and colours, and switches off what would get in
+/// an experiment's way.
+pub fn install(ctx: &egui::Context) {
+    ctx.set_theme(egui::Theme::Light);
+    ctx.options_mut(|options| {
+        // A zoom step would move the page under the participant's hand.
+        options.zoom_with_keyboard = false;
+    });
+    ctx.all_styles_mut(|style| {
+        style.visuals = visuals();
+        style.animation_time = 0.0;
+        style.text_styles = [
+            (TextStyle::Heading, 30.0),
+            (TextStyle::Body, 18.0),
+            (TextStyle::Button, 18.0),
+            (TextStyle::Small, 15.0),
+        ]
+        .map(|(role, size)| (role, FontId::new(size, FontFamily::Proportional)))
+        .into_iter()
+        .chain([(
+            TextStyle::Monospace,
+            FontId::new(15.0, FontFamily::Monospace),
+        )])
+        .collect();
+        style.spacing.item_spacing = egui::vec2(12.0, 10.0);
+        style.spacing.button_padding = egui::vec2(20.0, 9.0);
+        style.spacing.interact_size.y = TARGET;
+        style.interaction.selectable_labels = false;
+        style.interaction.tooltip_delay = 0.4;
+    });
+}
+
+fn visuals() -> Visuals {
+    let mut visuals = Visuals::light();
+    visuals.panel_fill = Color32::from_gray(PAGE);
+    visuals.window_fill = Color32::from_gray(CARD);
+    visuals.extreme_bg_color = Color32::from_gray(252);
+    visuals.faint_bg_color = Color32::from_gray(235);
+    visuals.hyperlink_color = INK;
+    visuals.warn_fg_color = INK;
+    visuals.error_fg_color = INK;
+    visuals.weak_text_color = Some(QUIET_INK);
+    visuals.selection.bg_fill = Color32::from_gray(190);
+    visuals.selection.stroke = Stroke::new(1.5, INK);
+    visuals.text_cursor.stroke = Stroke::new(2.0, INK);
+    visuals.text_cursor.blink = false;
+    visuals.disabled_alpha = 0.45;
+
+    let widgets = &mut visuals.widgets;
+    for (widget, fill, line) in [
+        (&mut widgets.noninteractive, CARD, LINE),
+        (&mut widgets.inactive, 214, Color32::from_gray(150)),
+        (&mut widgets.hovered, 200, Color32::from_gray(90)),
+        (&mut widgets.active, 180, INK),
+        (&mut widgets.open, 200, Color32::from_gray(90)),
+    ] {
+        widget.bg_fill = Color32::from_gray(fill);
+        widget.weak_bg_fill = Color32::from_gray(fill);
+        widget.bg_stroke = Stroke::new(1.0, line);
+        widget.fg_stroke = Stroke::new(1.5, INK);
+        widget.corner_radius = 4.into();
+        widget.expansion = 0.0;
+    }
+    visuals
+}
+
+/// The one thing to press on a page: dark, so that it is found first.
+#[must_use]
+pub fn primary_button(text: &str) -> egui::Button<'_> {
+    egui::Button::new(egui::RichText::new(text).color(Color32::from_gray(250)))
+        .fill(Color32::from_gray(45))
+        .stroke(Stroke::new(1.0, INK))
+        .min_size(egui::vec2(160.0, 44.0))
+}
+
+/// A light card that holds one group of facts.
+#[must_use]
+pub fn card() -> egui::Frame {
+    egui::Frame::new()
+        .fill(Color32::from_gray(CARD))
+        .stroke(Stroke::new(1.0, LINE))
+        .corner_radius(6)
+        .inner_margin(egui::Margin::symmetric(20, 16))
+}
+
+/// Text in the quieter ink.
+#[must_use]
+pub fn quiet(text: impl Into<String>) -> egui::RichText {
+    egui::RichText::new(text).color(QUIET_INK)
+}
+
+/// Ink that can be read on a grey level: black or white, whichever contrasts more.
+///
+/// The two contrasts (WCAG 2.2, relative luminance `L`), `(L + 0.05) / 0.05`
+/// and `1.05 / (L + 0.05)`, are equal at `L = 0.179`, sRGB level 117.6.
+#[must_use]
+pub fn ink_on(level: u8) -> Color32 {
+    if level >= 118 {
+        Color32::BLACK
+    } else {
+        Color32::WHITE
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn luminance(level: u8) -> f64 {
+        let value = f64::from(level) / 255.0;
+        if value <= 0.04045 {
+            value / 12.92
+        } else {
+            ((value + 0.055) / 1.055).powf(2.4)
+        }
+    }
+
+    #[test]
+    fn text_on_any_grey_reaches_the_contrast_of_wcag_aa() {
+        for level in 0..=255 {
+            let (low, high) = match ink_on(level) {
+                Color32::BLACK => (0.0, luminance(level)),
+                _ => (luminance(level), 1.0),
+            };
+            let contrast = (high + 0.05) / (low + 0.05);
+            assert!(contrast >= 4.5, "level {level}: {contrast:.2}");
+        }
+    }
+
+    #[test]
+    fn every_colour_is_a_grey() {
+        let visuals = visuals();
+        let widgets = &visuals.widgets;
+        let colours = [
+            visuals.panel_fill,
+            visuals.extreme_bg_color,
+            visuals.error_fg_color,
+            visuals.warn_fg_color,
+            visuals.hyperlink_color,
+            visuals.selection.bg_fill,
+            visuals.selection.stroke.color,
+            visuals.text_cursor.stroke.color,
+        ]
+        .into_iter()
+        .chain(
+            [
+                &widgets.noninteractive,
+                &widgets.inactive,
+                &widgets.hovered,
+                &widgets.active,
+                &widgets.open,
+            ]
+            .into_iter()
+            .flat_map(|w| {
+                [
+                    w.bg_fill,
+                    w.weak_bg_fill,
+                    w.bg_stroke.color,
+                    w.fg_stroke.color,
+                ]
+            }),
+        );
+        for colour in colours {
+            assert!(
+                colour.r() == colour.g() && colour.g() == colour.b(),
+                "{colour:?}"
+            );
+        }
+    }
+}
