@@ -3,6 +3,12 @@
 //! Everything here is a pure function of (protocol, seed, slot): no clock, no
 //! disk, no window. The same three give the same session on any machine, forever.
 
+pub mod config;
+pub mod design;
+pub mod key;
 pub mod plan;
+pub mod procedure;
 
-pub use plan::{Condition, Position, SessionPlan, Trial};
+pub use config::Protocol;
+pub use key::Key;
+pub use plan::{Condition, Phase, PlanError, Position, SessionPlan, Trial};

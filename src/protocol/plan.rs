@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Protocol;
+
 /// One condition of a study, as the design needs it: two techniques on one scene.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Condition {
@@ -25,6 +27,19 @@ pub enum Position {
     Second,
 }
 
+/// What a trial counts for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Phase {
+    /// To learn the procedure; left out of every analysis.
+    Practice,
+    /// An attention check with an obvious answer.
+    Catch,
+    /// A trial of the study.
+    #[default]
+    Main,
+}
+
 /// One trial: a condition, and whether its base order is turned round.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Trial {
@@ -34,6 +49,8 @@ pub struct Trial {
     pub condition: usize,
     /// True when the second technique of the condition is shown first.
     pub reversed: bool,
+    /// What it counts for.
+    pub phase: Phase,
 }
 
 /// Everything a participant of one slot will see, in order.
@@ -47,7 +64,51 @@ pub struct SessionPlan {
     pub trials: Vec<Trial>,
 }
 
+/// A study that cannot be planned.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum PlanError {
+    /// Nothing to show.
+    #[error("the stimulus set has no conditions; a study needs at least one [[condition]]")]
+    NoConditions,
+    /// Two conditions of one name.
+    #[error("the stimulus set has two conditions named {0:?}; every id must differ")]
+    DuplicateCondition(String),
+}
+
 impl SessionPlan {
+    /// The plan of one slot: a pure function of its arguments.
+    ///
+    /// # Errors
+    /// [`PlanError`] if the conditions cannot make a study.
+    pub fn new(
+        protocol: &Protocol,
+        conditions: &[Condition],
+        slot: u32,
+    ) -> Result<Self, PlanError> {
+        if conditions.is_empty() {
+            return Err(PlanError::NoConditions);
+        }
+        let mut ids = std::collections::HashSet::new();
+        if let Some(twice) = conditions.iter().find(|known| !ids.insert(&known.id)) {
+            return Err(PlanError::DuplicateCondition(twice.id.clone()));
+        }
+        let places = (protocol.design.order)(conditions.len(), protocol.seed, slot);
+        Ok(Self {
+            slot,
+            conditions: conditions.to_vec(),
+            trials: places
+                .into_iter()
+                .enumerate()
+                .map(|(index, place)| Trial {
+                    index,
+                    condition: place.condition,
+                    reversed: place.reversed,
+                    phase: Phase::Main,
+                })
+                .collect(),
+        })
+    }
+
     /// Techniques of a trial in the order shown.
     #[must_use]
     pub fn techniques(&self, trial: &Trial) -> (&str, &str) {

@@ -3,7 +3,24 @@
 //!
 //! A participant's data is sacred: append, sync, never truncate, never overwrite,
 //! never reuse a slot.
+//!
+//! ```text
+//! RESULTS/study.json                 the one protocol this folder belongs to
+//! RESULTS/materials/protocol.toml    that protocol, as it was
+//! RESULTS/dataset_description.json   Psych-DS: what every column means
+//! RESULTS/slots/                     who has which place in the design, and what became of it
+//! RESULTS/data/…_data.csv            one file a participant's session, one row a trial
+//! ```
 
+pub mod error;
+pub mod files;
+pub mod log;
+pub mod participant;
 pub mod row;
+pub mod study;
 
-pub use row::TrialRow;
+pub use error::RecordError;
+pub use log::RowLog;
+pub use participant::ParticipantId;
+pub use row::{InputDevice, OnsetMethod, Outcome, TrialRow};
+pub use study::{Enrolment, Study, StudyIdentity};

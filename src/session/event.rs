@@ -19,7 +19,10 @@ pub enum Event {
     /// The key that ends an image (space).
     Continue,
     /// A frame with the current screen was handed to the display; the time is an
-    /// estimate of when (the row records how it was obtained).
+    /// estimate of when (the row records how it was obtained). The first one of a
+    /// screen is its onset, further ones are harmless. Where frames are reported
+    /// late, compare [`Session::screen_serial`](super::Session::screen_serial)
+    /// first: a frame of the screen before must not be reported for this one.
     Shown,
     /// Time has passed (the view was woken, nothing else happened).
     Tick,
@@ -35,6 +38,10 @@ pub enum Event {
     FocusLost,
     /// The window has it back.
     FocusGained,
+    /// Input from now on comes from this device.
+    UsedDevice(crate::record::InputDevice),
+    /// So many frames came late since the last such event.
+    MissedFrames(u32),
     /// The experimenter's chord.
     Abort,
 }

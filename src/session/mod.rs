@@ -4,7 +4,13 @@
 //! drive the same [`Session`](machine::Session).
 
 pub mod event;
+pub mod info;
+pub mod machine;
 pub mod screen;
+pub mod start;
+mod trial_log;
 
 pub use event::{Effect, Event, SessionTime};
+pub use info::{PairHashes, SessionInfo};
+pub use machine::Session;
 pub use screen::Screen;

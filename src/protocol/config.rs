@@ -1,0 +1,265 @@
+//! A protocol: one TOML file that says what a study's participants go through.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::Key;
+use super::design::Design;
+use super::procedure::Procedure;
+use crate::config::quantity::{Milliseconds, SrgbLevel};
+use crate::config::{self, ConfigError};
+use crate::digest;
+
+/// A protocol as it stands in its file, checked.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Protocol {
+    /// Id of the study, as it stands in rows and file names.
+    pub study_id: StudyId,
+    /// The stimulus set's config, relative to the protocol's file.
+    pub stimuli: PathBuf,
+    /// What one trial is made of.
+    pub procedure: &'static Procedure,
+    /// Who sees which order.
+    pub design: &'static Design,
+    /// Seed of everything random in the design.
+    pub seed: u64,
+    /// How many participants the study is planned for.
+    pub planned_participants: u32,
+    /// The screen between the two images of a trial.
+    pub grey: Grey,
+    /// Every sentence on the participant's screen.
+    pub texts: Texts,
+    /// The keys that answer.
+    #[serde(default)]
+    pub keys: Keys,
+    /// Optional questions about the participant, in the order asked.
+    #[serde(default, rename = "metadata")]
+    pub metadata: Vec<MetadataField>,
+    /// SHA-256 of the file's bytes: the name of exactly this protocol in rows.
+    #[serde(skip)]
+    pub hash: String,
+}
+
+/// The grey between two images.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Grey {
+    /// How long it stands at least, from its first frame on the display.
+    #[serde(rename = "duration_ms")]
+    pub duration: Milliseconds,
+    /// Level of all three channels, 8-bit sRGB.
+    pub level_srgb: SrgbLevel,
+    /// What it covers.
+    pub area: GreyArea,
+}
+
+impl Grey {
+    /// How long it stands at least, nanoseconds.
+    #[must_use]
+    pub fn duration_ns(self) -> u64 {
+        u64::from(self.duration.get()) * 1_000_000
+    }
+}
+
+/// What the grey covers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum GreyArea {
+    /// The rectangle of the images; around it the colour that stands around the images.
+    Image,
+    /// The whole screen.
+    Screen,
+}
+
+/// Every sentence a participant reads. None may say what realism is: it would prime.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Texts {
+    /// Heading of the first screen.
+    pub title: Text,
+    /// The instructions; blank lines part paragraphs.
+    pub instructions: Text,
+    /// Button under the instructions.
+    pub begin: Text,
+    /// Heading of the page with the pairs.
+    pub menu: Text,
+    /// Button of a pair; `{n}` stands for its number from 1.
+    pub pair: Text,
+    /// The question after the second image.
+    pub question: Text,
+    /// Button for the image shown first.
+    pub answer_first: Text,
+    /// Button for the image shown second.
+    pub answer_second: Text,
+    /// Shown while the answer is written to disk.
+    pub saving: Text,
+    /// Shown when the answer could not be written: calm, asks to fetch the experimenter.
+    pub trouble: Text,
+    /// Thanks, at the end.
+    pub closing: Text,
+    /// Shown after the experimenter has ended the session early.
+    pub aborted: Text,
+}
+
+impl Texts {
+    /// Caption of the button of one pair; `index` counts from 0.
+    #[must_use]
+    pub fn pair_caption(&self, index: usize) -> String {
+        self.pair.replace("{n}", &(index + 1).to_string())
+    }
+}
+
+/// The participant's keys and the experimenter's chord.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Keys {
+    /// Ends an image.
+    #[serde(rename = "continue")]
+    pub go_on: Key,
+    /// Chooses the image shown first.
+    pub answer_first: Key,
+    /// Chooses the image shown second.
+    pub answer_second: Key,
+    /// Ends the session, together with Ctrl and Shift.
+    pub abort_with_ctrl_shift: Key,
+}
+
+impl Default for Keys {
+    fn default() -> Self {
+        Self {
+            go_on: Key::Space,
+            answer_first: Key::Symbol('1'),
+            answer_second: Key::Symbol('2'),
+            abort_with_ctrl_shift: Key::Symbol('Q'),
+        }
+    }
+}
+
+/// One optional question about the participant.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MetadataField {
+    /// Column name.
+    pub id: StudyId,
+    /// The question.
+    pub label: Text,
+    /// Answers to choose from; empty for free text.
+    #[serde(default)]
+    pub choices: Vec<Text>,
+}
+
+impl Protocol {
+    /// Parses a protocol's text; `path` is only named in errors.
+    ///
+    /// # Errors
+    /// [`ConfigError`] naming file, line and field.
+    pub fn parse(path: &Path, text: &str) -> Result<Self, ConfigError> {
+        let mut protocol: Self = config::parse(path, text)?;
+        protocol.hash = digest::sha256_hex(text.as_bytes());
+        Ok(protocol)
+    }
+
+    /// The stimulus set's config, given where the protocol's own file is.
+    #[must_use]
+    pub fn stimulus_set(&self, protocol_path: &Path) -> PathBuf {
+        protocol_path
+            .parent()
+            .unwrap_or_else(|| Path::new(""))
+            .join(&self.stimuli)
+    }
+}
+
+/// A sentence; never empty.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct Text(String);
+
+impl TryFrom<String> for Text {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        if text.trim().is_empty() {
+            return Err("found an empty text, something to read is needed".to_owned());
+        }
+        Ok(Self(text.trim().to_owned()))
+    }
+}
+
+impl From<Text> for String {
+    fn from(text: Text) -> Self {
+        text.0
+    }
+}
+
+impl std::ops::Deref for Text {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        &self.0
+    }
+}
+
+/// A short name for files and columns: starts with a letter, then letters,
+/// digits, `-` and `_`, 64 at most.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct StudyId(String);
+
+impl TryFrom<String> for StudyId {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        let allowed = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+        if text.starts_with(|c: char| c.is_ascii_alphabetic())
+            && text.chars().all(allowed)
+            && text.len() <= 64
+        {
+            return Ok(Self(text));
+        }
+        Err(format!(
+            "found {text:?}, allowed is a letter, then letters, digits, - and _, 64 at most"
+        ))
+    }
+}
+
+impl From<StudyId> for String {
+    fn from(id: StudyId) -> Self {
+        id.0
+    }
+}
+
+impl std::ops::Deref for StudyId {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        &self.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const THESIS: &str = include_str!("../../protocols/thesis-2010.toml");
+
+    fn parse(text: &str) -> Result<Protocol, String> {
+        Protocol::parse(Path::new("p.toml"), text).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn the_thesis_protocol_is_the_thesis_procedure() {
+        let protocol = parse(THESIS).unwrap();
+        assert_eq!(protocol.procedure.name, "no-reference");
+        assert_eq!(protocol.design.name, "latin");
+        assert_eq!(protocol.grey.duration_ns(), 2_000_000_000);
+        assert_eq!(protocol.grey.level_srgb.get(), 128);
+        assert_eq!(protocol.planned_participants, 36);
+        assert_eq!(protocol.texts.pair_caption(6), "Pair 7");
+        assert_eq!(
+            protocol.stimulus_set(Path::new("protocols/thesis-2010.toml")),
+            Path::new("protocols/../stimuli/thesis-2010.toml")
+        );
+    }
+}

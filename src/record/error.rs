@@ -1,0 +1,146 @@
+//! What can go wrong with a results folder.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A results folder that cannot be used, or a row that is not on disk.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordError {
+    /// The disk said no.
+    #[error("{}: cannot {action}: {source}{}", path.display(), hint(source))]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What was tried, as in "cannot …".
+        action: &'static str,
+        /// Why not.
+        source: io::Error,
+    },
+    /// A participant's id that cannot be a file name everywhere.
+    #[error(
+        "participant id {found:?}: allowed is a letter or digit, then letters, digits, - and _, 64 at most"
+    )]
+    ParticipantId {
+        /// What was given.
+        found: String,
+    },
+    /// A station's name that cannot stand in a row.
+    #[error("station name {found:?}: allowed is 1 to 64 characters without line breaks")]
+    Station {
+        /// What was given.
+        found: String,
+    },
+    /// The folder belongs to another protocol.
+    #[error(
+        "{}: this folder belongs to study {found_study:?} with protocol {found_hash}; {expected_study:?} with protocol {expected_hash} needs a folder of its own. The protocol as it was stands in {}",
+        path.display(), path.join("materials/protocol.toml").display()
+    )]
+    OtherProtocol {
+        /// The results folder.
+        path: PathBuf,
+        /// Study id on record.
+        found_study: String,
+        /// SHA-256 on record.
+        found_hash: String,
+        /// Study id of the protocol in use.
+        expected_study: String,
+        /// SHA-256 of the protocol in use.
+        expected_hash: String,
+    },
+    /// The protocol is the same but its stimulus set has other conditions now.
+    #[error(
+        "{}: the stimulus set has other conditions than when this folder was begun ({found}, now {expected}); restore the set or begin a new folder",
+        path.display()
+    )]
+    OtherConditions {
+        /// The results folder.
+        path: PathBuf,
+        /// Conditions on record.
+        found: String,
+        /// Conditions of the set in use.
+        expected: String,
+    },
+    /// The id is taken.
+    #[error(
+        "participant {participant:?} is already in this study ({answered} trials on record); resume that session or give another id"
+    )]
+    ParticipantExists {
+        /// The id.
+        participant: String,
+        /// Rows on record.
+        answered: usize,
+    },
+    /// Nothing to resume.
+    #[error(
+        "participant {participant:?} is not in this study; check the id, or start a new session"
+    )]
+    UnknownParticipant {
+        /// The id.
+        participant: String,
+    },
+    /// The slot was given up.
+    #[error(
+        "participant {participant:?} was released from slot {slot}, which may have been taken since; the session cannot go on"
+    )]
+    Released {
+        /// The id.
+        participant: String,
+        /// The slot.
+        slot: u32,
+    },
+    /// The session is open elsewhere.
+    #[error(
+        "{}: the session of participant {participant:?} is running in another window or on another computer; end it there first",
+        path.display()
+    )]
+    InUse {
+        /// The data file.
+        path: PathBuf,
+        /// The id.
+        participant: String,
+    },
+    /// A file is not what Greyfield wrote.
+    #[error("{}:{line}: {message}", path.display())]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: u64,
+        /// What was found and what is expected.
+        message: String,
+    },
+    /// A row that would break the file.
+    #[error("row {row_id}: {message}; nothing was written")]
+    Row {
+        /// The row.
+        row_id: String,
+        /// What is wrong with it.
+        message: String,
+    },
+}
+
+impl RecordError {
+    /// For `map_err`: names the path and what was tried.
+    pub(crate) fn io(path: &Path, action: &'static str) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_owned();
+        move |source| Self::Io {
+            path,
+            action,
+            source,
+        }
+    }
+}
+
+/// How to mend what the disk said.
+fn hint(error: &io::Error) -> &'static str {
+    match error.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            "; free some space, then try again"
+        }
+        io::ErrorKind::FileTooLarge => "; the file may not grow any further here (see `ulimit -f`)",
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "; the results folder must be writable"
+        }
+        _ => "",
+    }
+}

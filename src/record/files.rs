@@ -1,0 +1,1 @@
+//! Small file operations that keep what they promise.

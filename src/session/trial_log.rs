@@ -1,0 +1,185 @@
+//! What is noted while one trial runs, and the row it becomes.
+
+use time::OffsetDateTime;
+use time::format_description::well_known::Rfc3339;
+
+use super::SessionTime;
+use super::info::SessionInfo;
+use super::machine::Identity;
+use crate::protocol::procedure::Step;
+use crate::protocol::{Position, SessionPlan, Trial};
+use crate::record::TrialRow;
+use crate::record::row::{InputDevice, Outcome, SCHEMA_VERSION};
+
+/// Onsets and mishaps of the running trial.
+#[derive(Debug, Clone)]
+pub(super) struct TrialLog {
+    first_onset: Option<SessionTime>,
+    grey_onset: Option<SessionTime>,
+    second_onset: Option<SessionTime>,
+    question_onset: Option<SessionTime>,
+    missed_frames: Option<u32>,
+    focus_lost: u32,
+    unfocused: bool,
+    pub input_device: InputDevice,
+}
+
+impl TrialLog {
+    pub fn new(input_device: InputDevice) -> Self {
+        Self {
+            first_onset: None,
+            grey_onset: None,
+            second_onset: None,
+            question_onset: None,
+            missed_frames: None,
+            focus_lost: 0,
+            unfocused: false,
+            input_device,
+        }
+    }
+
+    /// A new trial begins; a window that is out of focus stays so.
+    pub fn start(&mut self) {
+        *self = Self {
+            unfocused: self.unfocused,
+            focus_lost: u32::from(self.unfocused),
+            ..Self::new(self.input_device)
+        };
+    }
+
+    pub fn focus_lost(&mut self) {
+        self.unfocused = true;
+        self.focus_lost = self.focus_lost.saturating_add(1);
+    }
+
+    pub fn focus_gained(&mut self) {
+        self.unfocused = false;
+    }
+
+    pub fn missed_frames(&mut self, count: u32) {
+        self.missed_frames = Some(self.missed_frames.unwrap_or(0).saturating_add(count));
+    }
+
+    /// The first frame of a step.
+    pub fn onset(&mut self, step: Step, at: SessionTime) {
+        let onset = match step {
+            Step::Image {
+                position: Position::First,
+                ..
+            } => &mut self.first_onset,
+            Step::Image {
+                position: Position::Second,
+                ..
+            } => &mut self.second_onset,
+            Step::Grey { .. } => &mut self.grey_onset,
+            Step::Question => &mut self.question_onset,
+        };
+        *onset = Some(at);
+    }
+
+    /// The row of an answered trial.
+    pub fn row(
+        &self,
+        plan: &SessionPlan,
+        trial: &Trial,
+        identity: &Identity,
+        info: &SessionInfo,
+        choice: Position,
+        answered: SessionTime,
+    ) -> TrialRow {
+        let ns = |time: Option<SessionTime>| time.map(|time| time.ns);
+        let condition = &plan.conditions[trial.condition];
+        let (technique_first, technique_second) = plan.techniques(trial);
+        let chosen = match choice {
+            Position::First => technique_first,
+            Position::Second => technique_second,
+        };
+        let (first_hash, second_hash) = hashes(info, trial);
+        let answered_utc = wall_clock(info, answered);
+        TrialRow {
+            row_id: row_id(info, trial),
+            schema_version: SCHEMA_VERSION,
+            app_version: env!("CARGO_PKG_VERSION").to_owned(),
+            study_id: identity.study_id.clone(),
+            protocol_hash: identity.protocol_hash.clone(),
+            station_id: info.station_id.clone(),
+            participant_id: info.participant_id.clone(),
+            slot: plan.slot,
+            session: info.session,
+            segment: info.segment,
+            pilot: info.pilot,
+            phase: trial.phase,
+            trial_index: u32::try_from(trial.index).unwrap_or(u32::MAX),
+            condition: condition.id.clone(),
+            scene: condition.scene.clone(),
+            technique_first: technique_first.to_owned(),
+            technique_second: technique_second.to_owned(),
+            first_image_sha256: first_hash,
+            second_image_sha256: second_hash,
+            first_onset_ns: ns(self.first_onset),
+            // A screen is gone with the first frame of the one after it.
+            first_offset_ns: ns(self.grey_onset),
+            grey_onset_ns: ns(self.grey_onset),
+            grey_offset_ns: ns(self.second_onset),
+            second_onset_ns: ns(self.second_onset),
+            second_offset_ns: ns(self.question_onset),
+            question_onset_ns: ns(self.question_onset),
+            response_ns: Some(answered.ns),
+            onset_method: info.onset_method,
+            onset_uncertainty_ms: info.onset_uncertainty_ms,
+            missed_frames: self.missed_frames,
+            response: Some(choice),
+            chosen_technique: Some(chosen.to_owned()),
+            response_time_ms: self
+                .question_onset
+                .map(|onset| (answered.ns - onset.ns) as f64 / 1e6),
+            input_device: self.input_device,
+            focus_lost: self.focus_lost,
+            outcome: Outcome::Answered,
+            resume_gap_ms: info
+                .interrupted_utc
+                .map(|before| whole_milliseconds(answered_utc - before)),
+            answered_utc: iso_8601(answered_utc),
+        }
+    }
+}
+
+fn row_id(info: &SessionInfo, trial: &Trial) -> String {
+    let phase = match trial.phase {
+        crate::protocol::Phase::Practice => "practice",
+        crate::protocol::Phase::Catch => "catch",
+        crate::protocol::Phase::Main => "main",
+    };
+    format!(
+        "{}:{}:{phase}:{}",
+        info.participant_id, info.session, trial.index
+    )
+}
+
+/// Image hashes in the order shown.
+fn hashes(info: &SessionInfo, trial: &Trial) -> (String, String) {
+    let Some(pair) = info.images.get(trial.condition) else {
+        return (String::new(), String::new());
+    };
+    let base = (pair.first.clone(), pair.second.clone());
+    if trial.reversed {
+        (base.1, base.0)
+    } else {
+        base
+    }
+}
+
+fn wall_clock(info: &SessionInfo, at: SessionTime) -> OffsetDateTime {
+    let since_start = time::Duration::nanoseconds(i64::try_from(at.ns).unwrap_or(i64::MAX));
+    info.started_utc
+        .checked_add(since_start)
+        .unwrap_or(info.started_utc)
+}
+
+fn whole_milliseconds(duration: time::Duration) -> u64 {
+    u64::try_from(duration.whole_milliseconds()).unwrap_or(0)
+}
+
+fn iso_8601(at: OffsetDateTime) -> String {
+    at.format(&Rfc3339).unwrap_or_default()
+}
