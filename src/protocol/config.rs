@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::Key;
 use super::design::Design;
 use super::procedure::Procedure;
-use crate::config::quantity::{Milliseconds, SrgbLevel};
+use crate::config::quantity::{Milliseconds, SrgbLevel, quantity};
 use crate::config::{self, ConfigError};
 use crate::digest;
 
@@ -26,7 +26,7 @@ pub struct Protocol {
     /// Seed of everything random in the design.
     pub seed: u64,
     /// How many participants the study is planned for.
-    pub planned_participants: u32,
+    pub planned_participants: Participants,
     /// The screen between the two images of a trial.
     pub grey: Grey,
     /// Every sentence on the participant's screen.
@@ -40,6 +40,11 @@ pub struct Protocol {
     /// SHA-256 of the file's bytes: the name of exactly this protocol in rows.
     #[serde(skip)]
     pub hash: String,
+}
+
+quantity! {
+    /// A number of participants.
+    Participants: u32, 1, 100_000, "participants"
 }
 
 /// The grey between two images.
@@ -112,11 +117,10 @@ impl Texts {
 }
 
 /// The participant's keys and the experimenter's chord.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "KeysAsWritten")]
 pub struct Keys {
     /// Ends an image.
-    #[serde(rename = "continue")]
     pub go_on: Key,
     /// Chooses the image shown first.
     pub answer_first: Key,
@@ -124,6 +128,36 @@ pub struct Keys {
     pub answer_second: Key,
     /// Ends the session, together with Ctrl and Shift.
     pub abort_with_ctrl_shift: Key,
+}
+
+/// The keys before they are compared with each other.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct KeysAsWritten {
+    #[serde(rename = "continue")]
+    go_on: Key,
+    answer_first: Key,
+    answer_second: Key,
+    abort_with_ctrl_shift: Key,
+}
+
+impl TryFrom<KeysAsWritten> for Keys {
+    type Error = String;
+
+    fn try_from(keys: KeysAsWritten) -> Result<Self, String> {
+        if keys.answer_first == keys.answer_second {
+            return Err(format!(
+                "answer_first and answer_second are both \"{}\"; they must differ",
+                keys.answer_first
+            ));
+        }
+        Ok(Self {
+            go_on: keys.go_on,
+            answer_first: keys.answer_first,
+            answer_second: keys.answer_second,
+            abort_with_ctrl_shift: keys.abort_with_ctrl_shift,
+        })
+    }
 }
 
 impl Default for Keys {
@@ -255,11 +289,86 @@ mod tests {
         assert_eq!(protocol.design.name, "latin");
         assert_eq!(protocol.grey.duration_ns(), 2_000_000_000);
         assert_eq!(protocol.grey.level_srgb.get(), 128);
-        assert_eq!(protocol.planned_participants, 36);
+        assert_eq!(protocol.planned_participants.get(), 36);
         assert_eq!(protocol.texts.pair_caption(6), "Pair 7");
         assert_eq!(
             protocol.stimulus_set(Path::new("protocols/thesis-2010.toml")),
             Path::new("protocols/../stimuli/thesis-2010.toml")
         );
+    }
+
+    #[test]
+    fn the_hash_is_the_one_sha256sum_gives() {
+        assert_eq!(
+            parse(THESIS).unwrap().hash,
+            digest::sha256_hex(THESIS.as_bytes())
+        );
+    }
+
+    /// The text of the thesis protocol with one line replaced, and the message.
+    fn refused(line: &str, replacement: &str) -> String {
+        assert!(THESIS.contains(line), "{line:?}");
+        parse(&THESIS.replace(line, replacement)).unwrap_err()
+    }
+
+    #[test]
+    fn wrong_values_name_their_line_and_what_is_allowed() {
+        for (line, replacement, parts) in [
+            (
+                "design = \"latin\"",
+                "design = \"greek\"",
+                ["p.toml:8", "design", "\"greek\"", "latin"],
+            ),
+            (
+                "procedure = \"no-reference\"",
+                "procedure = \"side-by-side\"",
+                ["p.toml:7", "procedure", "side-by-side", "no-reference"],
+            ),
+            (
+                "duration_ms = 2000",
+                "duration_ms = -1",
+                ["p.toml:15", "grey.duration_ms", "-1", "0 to 600000 ms"],
+            ),
+            (
+                "level_srgb = 128",
+                "level_srgb = 256",
+                ["p.toml:16", "grey.level_srgb", "256", "0 to 255"],
+            ),
+            (
+                "planned_participants = 36",
+                "planned_participants = 0",
+                ["p.toml:10", "planned_participants", "found 0", "1 to"],
+            ),
+            (
+                "study_id = \"thesis-2010\"",
+                "study_id = \"../x\"",
+                ["p.toml:3", "study_id", "../x", "letters, digits"],
+            ),
+            (
+                "begin = \"Begin\"",
+                "begin = \" \"",
+                ["p.toml:", "texts.begin", "empty", "needed"],
+            ),
+            (
+                "continue = \"Space\"",
+                "continue = \"Spacebar\"",
+                ["p.toml:", "keys.continue", "Spacebar", "Space"],
+            ),
+            (
+                "answer_first = \"1\"",
+                "answer_first = \"2\"",
+                ["p.toml:", "keys", "\"2\"", "differ"],
+            ),
+            (
+                "seed = 2010",
+                "sead = 2010",
+                ["p.toml:9", "sead", "unknown field", "seed"],
+            ),
+        ] {
+            let message = refused(line, replacement);
+            for part in parts {
+                assert!(message.contains(part), "{part:?} not in {message:?}");
+            }
+        }
     }
 }

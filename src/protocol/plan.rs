@@ -124,3 +124,56 @@ impl SessionPlan {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    fn protocol() -> Protocol {
+        let text = include_str!("../../protocols/thesis-2010.toml");
+        Protocol::parse(Path::new("p.toml"), text).unwrap()
+    }
+
+    fn condition(id: &str) -> Condition {
+        Condition {
+            id: id.to_owned(),
+            scene: "atrium".to_owned(),
+            first_technique: "none".to_owned(),
+            second_technique: "blizzard24".to_owned(),
+        }
+    }
+
+    #[test]
+    fn a_reversed_trial_shows_the_second_technique_first() {
+        let conditions = [condition("a"), condition("b")];
+        let techniques = |slot| {
+            let plan = SessionPlan::new(&protocol(), &conditions, slot).unwrap();
+            let (first, second) = plan.techniques(&plan.trials[0]);
+            (first.to_owned(), second.to_owned())
+        };
+        assert_eq!(techniques(0), ("none".into(), "blizzard24".into()));
+        assert_eq!(techniques(2), ("blizzard24".into(), "none".into()));
+    }
+
+    #[test]
+    fn trials_are_numbered_in_the_order_shown() {
+        let conditions: Vec<Condition> = ["a", "b", "c"].map(condition).into();
+        let plan = SessionPlan::new(&protocol(), &conditions, 4).unwrap();
+        let indices: Vec<usize> = plan.trials.iter().map(|trial| trial.index).collect();
+        assert_eq!(indices, [0, 1, 2]);
+    }
+
+    #[test]
+    fn a_set_that_makes_no_study_is_refused() {
+        assert_eq!(
+            SessionPlan::new(&protocol(), &[], 0),
+            Err(PlanError::NoConditions)
+        );
+        assert_eq!(
+            SessionPlan::new(&protocol(), &[condition("a"), condition("a")], 0),
+            Err(PlanError::DuplicateCondition("a".into()))
+        );
+    }
+}
