@@ -67,31 +67,59 @@ pub fn paint_grey(ctx: &Context, level: u8) {
     background(ctx).add(mesh);
 }
 
-/// Shows the picture in the middle of the surface, grey round it.
+/// Covers the place of a picture of `picture_px` with one grey level, and the
+/// rest of the surface with another.
 ///
 /// # Errors
-/// [`TooSmall`] if it does not fit; then only the grey was drawn. It is never
-/// scaled down.
-pub fn paint_picture(ctx: &Context, texture: &TextureHandle, grey: u8) -> Result<(), TooSmall> {
-    paint_grey(ctx, grey);
-    let [columns, rows] = texture.size();
-    let saturate = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
-    let picture_px = [saturate(columns), saturate(rows)];
-    let corner_px = centred_px(surface_px(ctx), picture_px)?;
+/// [`TooSmall`] if the place is larger than the surface; then only the
+/// surrounding was drawn.
+pub fn paint_field(
+    ctx: &Context,
+    picture_px: SizePx,
+    level: u8,
+    surround: u8,
+) -> Result<(), TooSmall> {
+    paint_grey(ctx, surround);
+    let mut mesh = Mesh::default();
+    mesh.add_colored_rect(place(ctx, picture_px)?, Color32::from_gray(level));
+    background(ctx).add(mesh);
+    Ok(())
+}
 
-    // Points; f32 holds these to better than 1/1000 pixel, and nearest sampling
-    // at pixel centres forgives half of one.
-    let scale = ctx.pixels_per_point();
-    let point = |px: [u32; 2]| Pos2::new(px[0] as f32 / scale, px[1] as f32 / scale);
-    let far_px = [corner_px[0] + picture_px[0], corner_px[1] + picture_px[1]];
+/// Shows the picture in the middle of the surface, one grey level round it.
+///
+/// # Errors
+/// [`TooSmall`] if it does not fit; then only the surrounding was drawn. It is
+/// never scaled down.
+pub fn paint_picture(ctx: &Context, texture: &TextureHandle, surround: u8) -> Result<(), TooSmall> {
+    paint_grey(ctx, surround);
     let mut mesh = Mesh::with_texture(texture.id());
     mesh.add_rect_with_uv(
-        Rect::from_min_max(point(corner_px), point(far_px)),
+        place(ctx, size_px(texture))?,
         Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0)),
         Color32::WHITE,
     );
     background(ctx).add(mesh);
     Ok(())
+}
+
+/// Size of a texture, pixels.
+#[must_use]
+pub fn size_px(texture: &TextureHandle) -> SizePx {
+    texture
+        .size()
+        .map(|count| u32::try_from(count).unwrap_or(u32::MAX))
+}
+
+/// The middle `picture_px` of the surface, in points.
+fn place(ctx: &Context, picture_px: SizePx) -> Result<Rect, TooSmall> {
+    let corner_px = centred_px(surface_px(ctx), picture_px)?;
+    let far_px = [corner_px[0] + picture_px[0], corner_px[1] + picture_px[1]];
+    // f32 holds points to better than 1/1000 pixel, and nearest sampling at pixel
+    // centres forgives half of one.
+    let scale = ctx.pixels_per_point();
+    let point = |px: SizePx| Pos2::new(px[0] as f32 / scale, px[1] as f32 / scale);
+    Ok(Rect::from_min_max(point(corner_px), point(far_px)))
 }
 
 fn background(ctx: &Context) -> Painter {

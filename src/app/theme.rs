@@ -104,6 +104,31 @@ pub fn quiet(text: impl Into<String>) -> egui::RichText {
     egui::RichText::new(text).color(QUIET_INK)
 }
 
+/// A tick in a square of side `size` points: two strokes, because the font has none.
+pub fn paint_tick(painter: &egui::Painter, centre: egui::Pos2, size: f32, ink: Color32) {
+    let at = |x: f32, y: f32| centre + egui::vec2(x, y) * size;
+    let points = vec![at(-0.4, 0.02), at(-0.12, 0.32), at(0.4, -0.3)];
+    painter.line(points, Stroke::new(size * 0.14, ink));
+}
+
+/// A tick or a cross in front of a line of text.
+pub fn mark(ui: &mut egui::Ui, good: bool) {
+    let size = ui.text_style_height(&TextStyle::Body) * 0.8;
+    let (rect, _) = ui.allocate_exact_size(egui::vec2(size, size), egui::Sense::hover());
+    let centre = rect.center();
+    if good {
+        paint_tick(ui.painter(), centre, size, INK);
+    } else {
+        let reach = egui::vec2(size, size) * 0.32;
+        let across = egui::vec2(reach.x, -reach.y);
+        let stroke = Stroke::new(size * 0.14, INK);
+        for way in [reach, across] {
+            ui.painter()
+                .line_segment([centre - way, centre + way], stroke);
+        }
+    }
+}
+
 /// Ink that can be read on a grey level: black or white, whichever contrasts more.
 ///
 /// The two contrasts (WCAG 2.2, relative luminance `L`), `(L + 0.05) / 0.05`

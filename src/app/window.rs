@@ -26,8 +26,8 @@ use super::stimulus_view::SizePx;
 pub trait Content {
     /// One pass of the interface.
     fn ui(&mut self, ui: &mut egui::Ui);
-    /// The operating system's window is there; called once, before the first pass.
-    fn opened(&mut self, window: Option<Arc<Window>>);
+    /// The window is there; called once, before the first pass.
+    fn opened(&mut self, ctx: &egui::Context, window: Option<Arc<Window>>);
     /// A key or a pointer button went down (auto-repeat excepted).
     fn pressed(&mut self, at: Instant);
     /// The last pass was drawn and handed to the display; the call returned at `at`.
@@ -61,7 +61,7 @@ pub fn run(
             *context.borrow_mut() = Some(creation.egui_ctx.clone());
             content
                 .borrow_mut()
-                .opened(creation.winit_window().cloned());
+                .opened(&creation.egui_ctx, creation.winit_window().cloned());
             Ok(Box::new(Face(content)) as Box<dyn eframe::App>)
         })
     };

@@ -1,0 +1,296 @@
+//! The application: the experimenter's start page, and from it one session after
+//! another.
+
+use std::path::PathBuf;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::time::Instant;
+
+use eframe::egui::{Context, Ui, ViewportCommand};
+use time::OffsetDateTime;
+use winit::window::Window;
+
+use super::clock::Clock;
+use super::display::DisplayFacts;
+use super::pictures::Pictures;
+use super::sitting::Sitting;
+use super::start_page::{self, Enrolling, Facts, OnRecord, Request};
+use super::stimuli_check::StimuliCheck;
+use super::stimulus_view::SizePx;
+use super::theme;
+use super::window::Content;
+use crate::protocol::Protocol;
+use crate::record::{Enrolment, InputDevice, OnsetMethod, ParticipantId, Study};
+use crate::session::start::{self, Setting};
+use crate::stimulus::Manifest;
+
+/// A study, ready to run.
+#[derive(Debug)]
+pub struct Setup {
+    /// The protocol.
+    pub protocol: Protocol,
+    /// Its file, to be named on the start page.
+    pub protocol_path: PathBuf,
+    /// The stimulus set.
+    pub manifest: Manifest,
+    /// The folder it lies in.
+    pub stimuli: PathBuf,
+    /// The open results folder.
+    pub study: Study,
+    /// This computer's name in the rows.
+    pub station: String,
+    /// Mark rows as pilot data.
+    pub pilot: bool,
+    /// Stay in a window instead of covering the screen during a session.
+    pub windowed: bool,
+    /// When the program started, for the time to the first frame.
+    pub started: Instant,
+}
+
+/// What the window shows.
+pub struct Application {
+    setup: Setup,
+    protocol: Rc<Protocol>,
+    window: Option<Arc<Window>>,
+    stimuli: Option<StimuliCheck>,
+    participants: Result<Vec<String>, String>,
+    enrolling: Enrolling,
+    sitting: Option<Box<Sitting>>,
+    first_frame_seen: bool,
+    /// Frames handed to the display so far.
+    frames: u64,
+    make_clock: Box<dyn Fn() -> Clock>,
+}
+
+impl Application {
+    /// The application at its start page.
+    #[must_use]
+    pub fn new(setup: Setup) -> Self {
+        let mut application = Self {
+            protocol: Rc::new(setup.protocol.clone()),
+            setup,
+            window: None,
+            stimuli: None,
+            participants: Ok(Vec::new()),
+            enrolling: Enrolling::default(),
+            sitting: None,
+            first_frame_seen: false,
+            frames: 0,
+            make_clock: Box::new(Clock::start),
+        };
+        application.count_participants();
+        application
+    }
+
+    /// The same, but sessions run on clocks made by `make_clock` (tests move them
+    /// by hand).
+    #[must_use]
+    pub fn with_clock(mut self, make_clock: impl Fn() -> Clock + 'static) -> Self {
+        self.make_clock = Box::new(make_clock);
+        self
+    }
+
+    /// The session on the screen, if one is.
+    #[must_use]
+    pub fn sitting(&self) -> Option<&Sitting> {
+        self.sitting.as_deref()
+    }
+
+    /// Frames handed to the display so far.
+    #[must_use]
+    pub fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// Columns and rows that every image of the set fits in, pixels.
+    #[must_use]
+    pub fn image_px(&self) -> SizePx {
+        image_px(&self.setup.manifest)
+    }
+
+    fn count_participants(&mut self) {
+        let next = self.setup.study.next_slot();
+        self.participants = next
+            .map(|slot| {
+                vec![format!(
+                    "The next new participant takes place {} of {} planned ({} design).",
+                    slot + 1,
+                    self.setup.protocol.planned_participants.get(),
+                    self.setup.protocol.design.name,
+                )]
+            })
+            .map_err(|error| error.to_string());
+    }
+
+    fn start_page(&mut self, ui: &mut Ui) {
+        let setup = &self.setup;
+        let stimuli = self.stimuli.get_or_insert_with(|| {
+            StimuliCheck::start(ui.ctx(), setup.manifest.clone(), setup.stimuli.clone())
+        });
+        stimuli.poll();
+        let image_px = image_px(&setup.manifest);
+        let display = DisplayFacts::read(ui.ctx(), self.window.as_deref());
+        let facts = Facts {
+            protocol: &self.protocol,
+            protocol_path: &setup.protocol_path,
+            results: setup.study.folder(),
+            station: &setup.station,
+            pilot: setup.pilot,
+            pairs: setup.manifest.pairs.len(),
+            images: (setup.manifest.images().count(), image_px),
+            stimuli,
+            participants: &self.participants,
+            display_check: &display.check(image_px, setup.windowed),
+            display: &display,
+            on_record: &|id| match setup.study.answered(id) {
+                Ok(None) => OnRecord::New,
+                Ok(Some(trials)) => OnRecord::Trials(trials),
+                Err(error) => OnRecord::Unreadable(error.to_string()),
+            },
+        };
+        if let Some(request) = start_page::show(ui, &facts, &mut self.enrolling) {
+            self.begin(ui.ctx(), &request, &display);
+        }
+    }
+
+    /// Puts the session asked for on the screen, or says why not.
+    fn begin(&mut self, ctx: &Context, request: &Request, display: &DisplayFacts) {
+        match self.sit_down(request, display) {
+            Ok(sitting) => {
+                self.sitting = Some(Box::new(sitting));
+                self.enrolling = Enrolling::default();
+                if !self.setup.windowed {
+                    ctx.send_viewport_cmd(ViewportCommand::Fullscreen(true));
+                }
+            }
+            Err(message) => {
+                tracing::error!(message, "no session was started");
+                self.enrolling.failure = Some(message);
+            }
+        }
+        ctx.request_repaint();
+    }
+
+    fn sit_down(&self, request: &Request, display: &DisplayFacts) -> Result<Sitting, String> {
+        let setup = &self.setup;
+        let started_utc = OffsetDateTime::now_utc();
+        let mut enrolment = self
+            .enrol(request, started_utc)
+            .map_err(|error| error.to_string())?;
+        for warning in &enrolment.warnings {
+            tracing::warn!(warning, "damage in the data of this participant");
+        }
+        let setting = Setting {
+            station_id: setup.station.clone(),
+            pilot: setup.pilot,
+            started_utc,
+            onset_method: OnsetMethod::PresentCall,
+            // With one frame in flight and vertical sync, light follows the call
+            // within the refresh it waited for and the one that scans it out.
+            onset_uncertainty_ms: display.refresh_hz.map(|hz| 2000.0 / hz),
+            input_device: InputDevice::Keyboard,
+        };
+        let clock = (self.make_clock)();
+        let session = start::start(&setup.protocol, &setup.manifest, &enrolment, &setting)
+            .map_err(|error| error.to_string())?;
+        let pictures = Pictures::new(setup.stimuli.clone(), &setup.manifest, session.plan());
+        Ok(Sitting::new(
+            session,
+            Rc::clone(&self.protocol),
+            clock,
+            Box::new(move |effect| start::perform(effect, &mut enrolment.log)),
+            pictures,
+            self.image_px(),
+        ))
+    }
+
+    fn enrol(
+        &self,
+        request: &Request,
+        now: OffsetDateTime,
+    ) -> Result<Enrolment, crate::record::RecordError> {
+        let (study, station) = (&self.setup.study, self.setup.station.as_str());
+        let enrol = |id: &ParticipantId| study.enrol(id, station, now);
+        match request {
+            Request::Begin(id) => enrol(id),
+            Request::Resume(id) => study.resume(id, station, now),
+        }
+    }
+
+    /// Back to the start page once the experimenter has left the last screen.
+    fn stand_up(&mut self, ctx: &Context) {
+        if !self
+            .sitting
+            .as_ref()
+            .is_some_and(|sitting| sitting.is_left())
+        {
+            return;
+        }
+        self.sitting = None;
+        self.count_participants();
+        if !self.setup.windowed {
+            ctx.send_viewport_cmd(ViewportCommand::Fullscreen(false));
+        }
+        ctx.request_repaint();
+    }
+
+    /// A running session does not end because somebody hit the key that closes
+    /// windows; the abort chord ends it.
+    fn refuse_to_close(&self, ctx: &Context) {
+        let running = self
+            .sitting
+            .as_ref()
+            .is_some_and(|sitting| !sitting.session().is_over());
+        if running && ctx.input(|input| input.viewport().close_requested()) {
+            tracing::warn!("the window was asked to close during a session; it stays open");
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+        }
+    }
+}
+
+fn image_px(manifest: &Manifest) -> SizePx {
+    let images = || manifest.images();
+    [
+        images().map(|image| image.width_px).max().unwrap_or(0),
+        images().map(|image| image.height_px).max().unwrap_or(0),
+    ]
+}
+
+impl Content for Application {
+    fn ui(&mut self, ui: &mut Ui) {
+        self.refuse_to_close(ui.ctx());
+        match &mut self.sitting {
+            Some(sitting) => sitting.ui(ui),
+            None => self.start_page(ui),
+        }
+        self.stand_up(ui.ctx());
+    }
+
+    fn opened(&mut self, ctx: &Context, window: Option<Arc<Window>>) {
+        theme::install(ctx);
+        self.window = window;
+    }
+
+    fn pressed(&mut self, at: Instant) {
+        if let Some(sitting) = &mut self.sitting {
+            sitting.pressed(at);
+        }
+    }
+
+    fn presented(&mut self, ctx: &Context, at: Instant) {
+        self.frames += 1;
+        if !std::mem::replace(&mut self.first_frame_seen, true) {
+            let elapsed = at.saturating_duration_since(self.setup.started);
+            tracing::info!(ms = elapsed.as_millis(), "first frame");
+        }
+        if let Some(sitting) = &mut self.sitting {
+            sitting.presented(ctx, at);
+        }
+    }
+
+    fn clear_level(&self) -> u8 {
+        self.sitting
+            .as_ref()
+            .map_or(theme::PAGE, |sitting| sitting.surround())
+    }
+}
