@@ -60,6 +60,23 @@ pub enum RecordError {
         /// Conditions of the set in use.
         expected: String,
     },
+    /// The images are not those the folder was begun with.
+    #[error(
+        "{}: the images have changed since this folder was begun; use the rendered set it was begun with (its manifest is materials/manifest.json), or begin a new folder",
+        path.display()
+    )]
+    OtherImages {
+        /// The results folder.
+        path: PathBuf,
+    },
+    /// All trials are answered.
+    #[error("participant {participant:?} has finished: all {answered} trials are on record")]
+    Finished {
+        /// The id.
+        participant: String,
+        /// Rows on record.
+        answered: usize,
+    },
     /// The id is taken.
     #[error(
         "participant {participant:?} is already in this study ({answered} trials on record); resume that session or give another id"
@@ -121,7 +138,7 @@ pub enum RecordError {
 
 impl RecordError {
     /// For `map_err`: names the path and what was tried.
-    pub(crate) fn io(path: &Path, action: &'static str) -> impl FnOnce(io::Error) -> Self {
+    pub(crate) fn io(path: &Path, action: &'static str) -> impl FnOnce(io::Error) -> Self + use<> {
         let path = path.to_owned();
         move |source| Self::Io {
             path,

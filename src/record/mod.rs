@@ -12,15 +12,29 @@
 //! RESULTS/data/…_data.csv            one file a participant's session, one row a trial
 //! ```
 
+pub mod columns;
+pub mod description;
 pub mod error;
-pub mod files;
+mod files;
+pub mod line;
 pub mod log;
 pub mod participant;
+pub mod read;
 pub mod row;
+mod slots;
+pub mod spreadsheet;
 pub mod study;
 
 pub use error::RecordError;
 pub use log::RowLog;
 pub use participant::ParticipantId;
+pub use read::{Rows, Warning, read_folder, read_rows};
 pub use row::{InputDevice, OnsetMethod, Outcome, TrialRow};
-pub use study::{Enrolment, Study, StudyIdentity};
+pub use slots::Release;
+pub use study::{Enrolment, Standing, Study, StudyIdentity};
+
+/// Folder of the data files in a results folder.
+pub const DATA_FOLDER: &str = "data";
+
+/// How the name of every data file ends.
+pub const DATA_SUFFIX: &str = "_data.csv";

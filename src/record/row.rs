@@ -23,6 +23,7 @@ pub struct TrialRow {
     /// SHA-256 of the protocol's file.
     pub protocol_hash: String,
     /// Which computer, as the experimenter named it.
+    #[serde(with = "super::spreadsheet::free_text")]
     pub station_id: String,
     /// Participant's pseudonymous id.
     pub participant_id: String,
@@ -39,12 +40,16 @@ pub struct TrialRow {
     /// Place in the session, from 0.
     pub trial_index: u32,
     /// Condition id.
+    #[serde(with = "super::spreadsheet::free_text")]
     pub condition: String,
     /// Scene id.
+    #[serde(with = "super::spreadsheet::free_text")]
     pub scene: String,
     /// Technique of the image shown first.
+    #[serde(with = "super::spreadsheet::free_text")]
     pub technique_first: String,
     /// Technique of the image shown second.
+    #[serde(with = "super::spreadsheet::free_text")]
     pub technique_second: String,
     /// SHA-256 of the file of the image shown first.
     pub first_image_sha256: String,
@@ -75,6 +80,7 @@ pub struct TrialRow {
     /// The participant's choice; absent where the outcome is not `answered`.
     pub response: Option<Position>,
     /// Technique of the image chosen.
+    #[serde(with = "super::spreadsheet::optional_free_text")]
     pub chosen_technique: Option<String>,
     /// From the first frame of the question to the answer.
     pub response_time_ms: Option<f64>,

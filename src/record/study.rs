@@ -4,8 +4,10 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use time::OffsetDateTime;
+use time::format_description::well_known::Rfc3339;
 
-use super::{ParticipantId, RecordError, RowLog, TrialRow};
+use super::slots::{self, Claim, ClaimRecord, Release, SegmentRecord, Slots};
+use super::{ParticipantId, RecordError, RowLog, TrialRow, description, files, read};
 use crate::protocol::{Condition, Protocol};
 
 /// What a results folder belongs to.
@@ -17,6 +19,10 @@ pub struct StudyIdentity {
     pub protocol_hash: String,
     /// The study's conditions, in the stimulus set's order.
     pub conditions: Vec<Condition>,
+    /// SHA-256 of the images, in the set's order, first before second; empty where
+    /// they were not known.
+    #[serde(default)]
+    pub image_sha256: Vec<String>,
 }
 
 /// An open results folder.
@@ -24,6 +30,7 @@ pub struct StudyIdentity {
 pub struct Study {
     folder: PathBuf,
     identity: StudyIdentity,
+    pilot: bool,
 }
 
 /// A participant's place in the study and the open file of the session.
@@ -37,6 +44,10 @@ pub struct Enrolment {
     pub session: u32,
     /// Which uninterrupted run of the session, from 1.
     pub segment: u32,
+    /// A try-out: rows are marked as such, and the slot is one of the pilot's.
+    pub pilot: bool,
+    /// Which computer.
+    pub station: String,
     /// Trials already on record, in order.
     pub rows: Vec<TrialRow>,
     /// When resumed: wall-clock time of what came last on record.
@@ -47,6 +58,19 @@ pub struct Enrolment {
     pub log: RowLog,
 }
 
+/// Where one participant stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Standing {
+    /// The participant's id.
+    pub participant: String,
+    /// Participant number in the design, from 0.
+    pub slot: u32,
+    /// Trials on record.
+    pub answered: usize,
+    /// Set if the slot was given up.
+    pub released: Option<Release>,
+}
+
 impl StudyIdentity {
     /// The identity of a protocol over the conditions of its stimulus set.
     #[must_use]
@@ -55,7 +79,14 @@ impl StudyIdentity {
             study_id: protocol.study_id.to_string(),
             protocol_hash: protocol.hash.clone(),
             conditions: conditions.to_vec(),
+            image_sha256: Vec::new(),
         }
+    }
+
+    /// Trials of a whole session.
+    #[must_use]
+    pub fn trials(&self) -> usize {
+        self.conditions.len()
     }
 }
 
@@ -68,12 +99,76 @@ impl Study {
     pub fn open(
         folder: &Path,
         identity: StudyIdentity,
-        _protocol_text: &str,
+        protocol_text: &str,
     ) -> Result<Self, RecordError> {
-        Ok(Self {
+        for part in ["", "materials", "slots", super::DATA_FOLDER] {
+            files::create_folder(&folder.join(part))?;
+        }
+        let study = Self {
             folder: folder.to_owned(),
             identity,
-        })
+            pilot: false,
+        };
+        let path = folder.join("study.json");
+        if !path.exists() {
+            // Whoever is first decides what the folder belongs to.
+            files::create_whole(&path, &slots::json(&path, &study.identity)?)?;
+        }
+        study.check(&slots::load(&path)?)?;
+        study.keep("materials/protocol.toml", protocol_text.as_bytes())?;
+        let path = folder.join("dataset_description.json");
+        let description = description::dataset_description(&study.identity);
+        study.keep(
+            "dataset_description.json",
+            &slots::json(&path, &description)?,
+        )?;
+        Ok(study)
+    }
+
+    /// The same folder for try-outs: their rows are marked, their slots are counted apart.
+    #[must_use]
+    pub fn pilot(self, pilot: bool) -> Self {
+        Self { pilot, ..self }
+    }
+
+    /// Keeps a file in the folder, unless one of that name is there already.
+    ///
+    /// # Errors
+    /// [`RecordError::Io`] naming the file.
+    pub fn keep(&self, name: &str, content: &[u8]) -> Result<(), RecordError> {
+        let path = self.folder.join(name);
+        if !path.exists() {
+            files::create_whole(&path, content)?;
+        }
+        Ok(())
+    }
+
+    fn check(&self, found: &StudyIdentity) -> Result<(), RecordError> {
+        let (path, expected) = (self.folder.clone(), &self.identity);
+        if found.protocol_hash != expected.protocol_hash {
+            return Err(RecordError::OtherProtocol {
+                path,
+                found_study: found.study_id.clone(),
+                found_hash: found.protocol_hash.clone(),
+                expected_study: expected.study_id.clone(),
+                expected_hash: expected.protocol_hash.clone(),
+            });
+        }
+        if found.conditions != expected.conditions {
+            let ids = |identity: &StudyIdentity| {
+                let ids: Vec<&str> = identity.conditions.iter().map(|c| c.id.as_str()).collect();
+                ids.join(", ")
+            };
+            return Err(RecordError::OtherConditions {
+                path,
+                found: ids(found),
+                expected: ids(expected),
+            });
+        }
+        if found.image_sha256 != expected.image_sha256 {
+            return Err(RecordError::OtherImages { path });
+        }
+        Ok(())
     }
 
     /// Takes the lowest open slot for a new participant and makes the data file.
@@ -84,42 +179,118 @@ impl Study {
     pub fn enrol(
         &self,
         participant: &ParticipantId,
-        _station: &str,
-        _now: OffsetDateTime,
+        station: &str,
+        now: OffsetDateTime,
     ) -> Result<Enrolment, RecordError> {
-        Err(RecordError::UnknownParticipant {
-            participant: participant.to_string(),
+        check_station(station)?;
+        let path = self.data_path(participant);
+        // The file comes first: its name is what makes the id unique.
+        let Some(log) = RowLog::create(&path, participant.as_str())? else {
+            return Err(RecordError::ParticipantExists {
+                participant: participant.to_string(),
+                answered: read::read_rows(&path)?.rows.len(),
+            });
+        };
+        let claim = self.claim(participant, station, now)?;
+        Ok(Enrolment {
+            participant: participant.clone(),
+            slot: claim.slot,
+            session: 1,
+            segment: 1,
+            pilot: self.pilot,
+            station: station.to_owned(),
+            rows: Vec::new(),
+            interrupted_utc: None,
+            warnings: Vec::new(),
+            log,
         })
     }
 
     /// Goes on with an unfinished session of the same participant.
     ///
     /// # Errors
-    /// [`RecordError`], also if there is none, or if it is open elsewhere.
+    /// [`RecordError`], also if there is none, if it is finished or was given up, or
+    /// if it is open elsewhere.
     pub fn resume(
         &self,
         participant: &ParticipantId,
-        _station: &str,
-        _now: OffsetDateTime,
+        station: &str,
+        now: OffsetDateTime,
     ) -> Result<Enrolment, RecordError> {
-        Err(RecordError::UnknownParticipant {
-            participant: participant.to_string(),
+        check_station(station)?;
+        let path = self.data_path(participant);
+        if !path.exists() {
+            return Err(unknown(participant));
+        }
+        let (log, rows) = RowLog::reopen(&path, participant.as_str())?;
+        if rows.rows.len() >= self.identity.trials() {
+            return Err(RecordError::Finished {
+                participant: participant.to_string(),
+                answered: rows.rows.len(),
+            });
+        }
+        let (slots, claim, record) = match self.find_claim(participant)? {
+            Some(found) => found,
+            // Interrupted between making the file and claiming the slot.
+            None => (
+                Slots::new(&self.folder, self.pilot),
+                self.claim(participant, station, now)?,
+                claim_record(participant, station, now),
+            ),
+        };
+        if slots.released(claim)?.is_some() {
+            return Err(RecordError::Released {
+                participant: participant.to_string(),
+                slot: claim.slot,
+            });
+        }
+        let interrupted_utc = last_on_record(&rows.rows, &slots.segments(claim)?, &record);
+        let segment = slots.add_segment(
+            claim,
+            &SegmentRecord {
+                station: station.to_owned(),
+                resumed_utc: iso_8601(now),
+            },
+        )?;
+        Ok(Enrolment {
+            participant: participant.clone(),
+            slot: claim.slot,
+            session: 1,
+            segment,
+            pilot: slots.is_pilot(),
+            station: station.to_owned(),
+            rows: rows.rows,
+            interrupted_utc,
+            warnings: rows.warnings.iter().map(ToString::to_string).collect(),
+            log,
         })
     }
 
     /// Gives a drop-out's slot to the next participant; both stay on record.
     ///
     /// # Errors
-    /// [`RecordError`], also if the participant holds no slot.
+    /// [`RecordError`], also if the participant holds no slot or the session is running.
     pub fn release(
         &self,
         participant: &ParticipantId,
-        _reason: &str,
-        _now: OffsetDateTime,
+        reason: &str,
+        now: OffsetDateTime,
     ) -> Result<u32, RecordError> {
-        Err(RecordError::UnknownParticipant {
-            participant: participant.to_string(),
-        })
+        let path = self.data_path(participant);
+        if !path.exists() {
+            return Err(unknown(participant));
+        }
+        // Held until the end: nobody resumes what is being given up.
+        let _log = RowLog::reopen(&path, participant.as_str())?;
+        let Some((slots, claim, _)) = self.find_claim(participant)? else {
+            return Err(unknown(participant));
+        };
+        let release = Release {
+            reason: reason.to_owned(),
+            released_utc: iso_8601(now),
+        };
+        slots.release(claim, &release)?;
+        Ok(claim.slot)
     }
 
     /// The slot the next new participant would take.
@@ -127,15 +298,38 @@ impl Study {
     /// # Errors
     /// [`RecordError`] if the folder cannot be read.
     pub fn next_slot(&self) -> Result<u32, RecordError> {
-        Ok(0)
+        let slots = Slots::new(&self.folder, self.pilot);
+        slots.next_open().map(|claim| claim.slot)
     }
 
     /// Rows on record of a participant, `None` if the id is new.
     ///
     /// # Errors
     /// [`RecordError`] if the folder cannot be read.
-    pub fn answered(&self, _participant: &ParticipantId) -> Result<Option<usize>, RecordError> {
-        Ok(None)
+    pub fn answered(&self, participant: &ParticipantId) -> Result<Option<usize>, RecordError> {
+        let path = self.data_path(participant);
+        if !path.exists() {
+            return Ok(None);
+        }
+        read::read_rows(&path).map(|rows| Some(rows.rows.len()))
+    }
+
+    /// Everybody who ever held a slot, by slot.
+    ///
+    /// # Errors
+    /// [`RecordError`] if the folder cannot be read.
+    pub fn standings(&self) -> Result<Vec<Standing>, RecordError> {
+        let slots = Slots::new(&self.folder, self.pilot);
+        let stands = |(claim, record): (Claim, ClaimRecord)| {
+            let id = ParticipantId::new(&record.participant)?;
+            Ok(Standing {
+                slot: claim.slot,
+                answered: self.answered(&id)?.unwrap_or(0),
+                released: slots.released(claim)?,
+                participant: record.participant,
+            })
+        };
+        slots.claims()?.into_iter().map(stands).collect()
     }
 
     /// The results folder.
@@ -149,4 +343,90 @@ impl Study {
     pub fn identity(&self) -> &StudyIdentity {
         &self.identity
     }
+
+    /// Psych-DS: keys in lower case, values of letters and digits only.
+    fn data_path(&self, participant: &ParticipantId) -> PathBuf {
+        let alphanumeric = |c: &char| c.is_ascii_alphanumeric();
+        let study: String = self
+            .identity
+            .study_id
+            .chars()
+            .filter(alphanumeric)
+            .collect();
+        let subject = participant.file_value();
+        self.folder.join(super::DATA_FOLDER).join(format!(
+            "study-{study}_subject-{subject}_session-1{}",
+            super::DATA_SUFFIX
+        ))
+    }
+
+    /// The latest claim of a participant, in either series.
+    fn find_claim(
+        &self,
+        participant: &ParticipantId,
+    ) -> Result<Option<(Slots, Claim, ClaimRecord)>, RecordError> {
+        for pilot in [self.pilot, !self.pilot] {
+            let slots = Slots::new(&self.folder, pilot);
+            if let Some((claim, record)) = slots.find(participant.as_str())? {
+                return Ok(Some((slots, claim, record)));
+            }
+        }
+        Ok(None)
+    }
+
+    fn claim(
+        &self,
+        participant: &ParticipantId,
+        station: &str,
+        now: OffsetDateTime,
+    ) -> Result<Claim, RecordError> {
+        let slots = Slots::new(&self.folder, self.pilot);
+        slots.claim(&claim_record(participant, station, now))
+    }
+}
+
+fn claim_record(participant: &ParticipantId, station: &str, now: OffsetDateTime) -> ClaimRecord {
+    ClaimRecord {
+        participant: participant.to_string(),
+        station: station.to_owned(),
+        claimed_utc: iso_8601(now),
+    }
+}
+
+fn unknown(participant: &ParticipantId) -> RecordError {
+    RecordError::UnknownParticipant {
+        participant: participant.to_string(),
+    }
+}
+
+fn check_station(station: &str) -> Result<(), RecordError> {
+    let length = station.chars().count();
+    if (1..=64).contains(&length) && !station.chars().any(char::is_control) {
+        return Ok(());
+    }
+    Err(RecordError::Station {
+        found: station.to_owned(),
+    })
+}
+
+/// The latest wall-clock time a session has left on record.
+fn last_on_record(
+    rows: &[TrialRow],
+    segments: &[SegmentRecord],
+    claim: &ClaimRecord,
+) -> Option<OffsetDateTime> {
+    let resumed = segments.iter().map(|segment| segment.resumed_utc.as_str());
+    let answered = rows.iter().map(|row| row.answered_utc.as_str());
+    resumed
+        .chain(answered)
+        .chain([claim.claimed_utc.as_str()])
+        .filter_map(|utc| OffsetDateTime::parse(utc, &Rfc3339).ok())
+        .max()
+}
+
+/// UTC, ISO 8601 (RFC 3339).
+pub(crate) fn iso_8601(at: OffsetDateTime) -> String {
+    at.to_offset(time::UtcOffset::UTC)
+        .format(&Rfc3339)
+        .unwrap_or_default()
 }

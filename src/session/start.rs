@@ -1,20 +1,20 @@
 //! From a place in a study to a running session: what a window and a scripted
 //! observer do alike.
 
+use std::path::Path;
+
 use time::OffsetDateTime;
 
 use super::{Effect, Event, PairHashes, Session, SessionInfo};
 use crate::protocol::{Condition, PlanError, Protocol, SessionPlan};
-use crate::record::{Enrolment, InputDevice, OnsetMethod, RowLog};
+use crate::record::{
+    Enrolment, InputDevice, OnsetMethod, RecordError, RowLog, Study, StudyIdentity,
+};
 use crate::stimulus::Manifest;
 
 /// Where and how a session runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
-    /// Which computer.
-    pub station_id: String,
-    /// Rows are marked as pilot data.
-    pub pilot: bool,
     /// Wall-clock time at [`SessionTime`](super::SessionTime) 0.
     pub started_utc: OffsetDateTime,
     /// How the times of [`Event::Shown`] are obtained.
@@ -45,6 +45,29 @@ pub enum StartError {
         /// Condition and techniques planned.
         expected: String,
     },
+}
+
+/// Opens the results folder of a protocol over a rendered set. The protocol's text
+/// and the manifest are kept beside the data, and a folder begun with another
+/// protocol or other images is refused.
+///
+/// # Errors
+/// [`RecordError`] saying what does not fit, or what the disk said.
+pub fn open_study(
+    results: &Path,
+    protocol: &Protocol,
+    protocol_text: &str,
+    manifest: &Manifest,
+) -> Result<Study, RecordError> {
+    let mut identity = StudyIdentity::new(protocol, &conditions(manifest));
+    identity.image_sha256 = manifest
+        .images()
+        .map(|image| image.sha256.clone())
+        .collect();
+    let study = Study::open(results, identity, protocol_text)?;
+    let manifest = serde_json::to_vec_pretty(manifest).unwrap_or_default();
+    study.keep("materials/manifest.json", &manifest)?;
+    Ok(study)
 }
 
 /// The conditions of a rendered set, in its order.
@@ -78,8 +101,8 @@ pub fn start(
         participant_id: enrolment.participant.to_string(),
         session: enrolment.session,
         segment: enrolment.segment,
-        station_id: setting.station_id.clone(),
-        pilot: setting.pilot,
+        station_id: enrolment.station.clone(),
+        pilot: enrolment.pilot,
         started_utc: setting.started_utc,
         onset_method: setting.onset_method,
         onset_uncertainty_ms: setting.onset_uncertainty_ms,

@@ -1,23 +1,30 @@
 //! What is noted while one trial runs, and the row it becomes.
 
 use time::OffsetDateTime;
-use time::format_description::well_known::Rfc3339;
 
 use super::SessionTime;
 use super::info::SessionInfo;
 use super::machine::Identity;
 use crate::protocol::procedure::Step;
 use crate::protocol::{Position, SessionPlan, Trial};
-use crate::record::TrialRow;
 use crate::record::row::{InputDevice, Outcome, SCHEMA_VERSION};
+use crate::record::{TrialRow, study::iso_8601};
+
+/// When something was on the display.
+#[derive(Debug, Clone, Copy, Default)]
+struct Interval {
+    onset: Option<SessionTime>,
+    offset: Option<SessionTime>,
+}
 
 /// Onsets and mishaps of the running trial.
 #[derive(Debug, Clone)]
 pub(super) struct TrialLog {
-    first_onset: Option<SessionTime>,
-    grey_onset: Option<SessionTime>,
-    second_onset: Option<SessionTime>,
-    question_onset: Option<SessionTime>,
+    first: Interval,
+    grey: Interval,
+    second: Interval,
+    question: Interval,
+    showing: Option<Step>,
     missed_frames: Option<u32>,
     focus_lost: u32,
     unfocused: bool,
@@ -27,10 +34,11 @@ pub(super) struct TrialLog {
 impl TrialLog {
     pub fn new(input_device: InputDevice) -> Self {
         Self {
-            first_onset: None,
-            grey_onset: None,
-            second_onset: None,
-            question_onset: None,
+            first: Interval::default(),
+            grey: Interval::default(),
+            second: Interval::default(),
+            question: Interval::default(),
+            showing: None,
             missed_frames: None,
             focus_lost: 0,
             unfocused: false,
@@ -60,21 +68,27 @@ impl TrialLog {
         self.missed_frames = Some(self.missed_frames.unwrap_or(0).saturating_add(count));
     }
 
-    /// The first frame of a step.
+    /// The first frame of a step, which is the first one without the step before it.
     pub fn onset(&mut self, step: Step, at: SessionTime) {
-        let onset = match step {
+        if let Some(before) = self.showing.replace(step) {
+            self.interval(before).offset = Some(at);
+        }
+        self.interval(step).onset = Some(at);
+    }
+
+    fn interval(&mut self, step: Step) -> &mut Interval {
+        match step {
             Step::Image {
                 position: Position::First,
                 ..
-            } => &mut self.first_onset,
+            } => &mut self.first,
             Step::Image {
                 position: Position::Second,
                 ..
-            } => &mut self.second_onset,
-            Step::Grey { .. } => &mut self.grey_onset,
-            Step::Question => &mut self.question_onset,
-        };
-        *onset = Some(at);
+            } => &mut self.second,
+            Step::Grey { .. } => &mut self.grey,
+            Step::Question => &mut self.question,
+        }
     }
 
     /// The row of an answered trial.
@@ -116,14 +130,13 @@ impl TrialLog {
             technique_second: technique_second.to_owned(),
             first_image_sha256: first_hash,
             second_image_sha256: second_hash,
-            first_onset_ns: ns(self.first_onset),
-            // A screen is gone with the first frame of the one after it.
-            first_offset_ns: ns(self.grey_onset),
-            grey_onset_ns: ns(self.grey_onset),
-            grey_offset_ns: ns(self.second_onset),
-            second_onset_ns: ns(self.second_onset),
-            second_offset_ns: ns(self.question_onset),
-            question_onset_ns: ns(self.question_onset),
+            first_onset_ns: ns(self.first.onset),
+            first_offset_ns: ns(self.first.offset),
+            grey_onset_ns: ns(self.grey.onset),
+            grey_offset_ns: ns(self.grey.offset),
+            second_onset_ns: ns(self.second.onset),
+            second_offset_ns: ns(self.second.offset),
+            question_onset_ns: ns(self.question.onset),
             response_ns: Some(answered.ns),
             onset_method: info.onset_method,
             onset_uncertainty_ms: info.onset_uncertainty_ms,
@@ -131,7 +144,8 @@ impl TrialLog {
             response: Some(choice),
             chosen_technique: Some(chosen.to_owned()),
             response_time_ms: self
-                .question_onset
+                .question
+                .onset
                 .map(|onset| (answered.ns - onset.ns) as f64 / 1e6),
             input_device: self.input_device,
             focus_lost: self.focus_lost,
@@ -178,8 +192,4 @@ fn wall_clock(info: &SessionInfo, at: SessionTime) -> OffsetDateTime {
 
 fn whole_milliseconds(duration: time::Duration) -> u64 {
     u64::try_from(duration.whole_milliseconds()).unwrap_or(0)
-}
-
-fn iso_8601(at: OffsetDateTime) -> String {
-    at.format(&Rfc3339).unwrap_or_default()
 }

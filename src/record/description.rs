@@ -1,0 +1,40 @@
+//! `dataset_description.json`: what the data is and what every column means, for
+//! people and for tools that know Psych-DS.
+
+use serde_json::{Value, json};
+
+use super::StudyIdentity;
+use super::columns::{COLUMNS, Column};
+
+/// The description of a study's data, JSON-LD in the vocabulary of schema.org as
+/// Psych-DS asks for.
+#[must_use]
+pub fn dataset_description(identity: &StudyIdentity) -> Value {
+    json!({
+        "@context": "https://schema.org",
+        "@type": "Dataset",
+        "name": identity.study_id,
+        "description": format!(
+            "Choices of participants between two images of one scene that differ in ambient occlusion. \
+             One file a session, one row a trial. Protocol SHA-256 {}.",
+            identity.protocol_hash
+        ),
+        "creator": { "@type": "SoftwareApplication", "name": "Greyfield", "softwareVersion": env!("CARGO_PKG_VERSION") },
+        "variableMeasured": COLUMNS.iter().map(variable).collect::<Vec<_>>(),
+    })
+}
+
+fn variable(column: &Column) -> Value {
+    let mut variable = json!({
+        "@type": "PropertyValue",
+        "name": column.name,
+        "description": column.description,
+    });
+    if !column.unit.is_empty() {
+        variable["unitText"] = json!(column.unit);
+    }
+    if !column.values.is_empty() {
+        variable["valueReference"] = json!(column.values);
+    }
+    variable
+}
