@@ -66,6 +66,10 @@ impl Application {
     /// The application at its start page.
     #[must_use]
     pub fn new(setup: Setup) -> Self {
+        let setup = Setup {
+            study: setup.study.pilot(setup.pilot),
+            ..setup
+        };
         let mut application = Self {
             protocol: Rc::new(setup.protocol.clone()),
             setup,
@@ -108,18 +112,12 @@ impl Application {
         image_px(&self.setup.manifest)
     }
 
+    /// Reads who has taken part; the folder changes only between sessions.
     fn count_participants(&mut self) {
-        let next = self.setup.study.next_slot();
-        self.participants = next
-            .map(|slot| {
-                vec![format!(
-                    "The next new participant takes place {} of {} planned ({} design).",
-                    slot + 1,
-                    self.setup.protocol.planned_participants.get(),
-                    self.setup.protocol.design.name,
-                )]
-            })
-            .map_err(|error| error.to_string());
+        let conditions = start::conditions(&self.setup.manifest);
+        self.participants =
+            start_page::participants(&self.setup.study, &self.setup.protocol, &conditions)
+                .map_err(|error| error.to_string());
     }
 
     fn start_page(&mut self, ui: &mut Ui) {
@@ -181,8 +179,6 @@ impl Application {
             tracing::warn!(warning, "damage in the data of this participant");
         }
         let setting = Setting {
-            station_id: setup.station.clone(),
-            pilot: setup.pilot,
             started_utc,
             onset_method: OnsetMethod::PresentCall,
             // With one frame in flight and vertical sync, light follows the call

@@ -79,13 +79,15 @@ fn visuals() -> Visuals {
     visuals
 }
 
-/// The one thing to press on a page: dark, so that it is found first.
+/// A button that is found first: a dark field, the same on every grey.
 #[must_use]
-pub fn primary_button(text: &str) -> egui::Button<'_> {
-    egui::Button::new(egui::RichText::new(text).color(Color32::from_gray(250)))
+pub fn primary_button(text: &str, min_size: egui::Vec2) -> egui::Button<'_> {
+    let text = egui::RichText::new(text).color(Color32::from_gray(250));
+    // Room on both sides keeps the text in the middle of a wider button.
+    egui::Button::new((egui::Atom::grow(), text, egui::Atom::grow()))
         .fill(Color32::from_gray(45))
-        .stroke(Stroke::new(1.0, INK))
-        .min_size(egui::vec2(160.0, 44.0))
+        .stroke(Stroke::new(1.0, Color32::BLACK))
+        .min_size(min_size)
 }
 
 /// A light card that holds one group of facts.
@@ -142,6 +144,16 @@ pub fn ink_on(level: u8) -> Color32 {
     }
 }
 
+/// Level of a card on a grey level: away from the ink, near the grey.
+#[must_use]
+pub fn card_on(level: u8) -> u8 {
+    if ink_on(level) == Color32::BLACK {
+        level.saturating_add(44)
+    } else {
+        level.saturating_sub(44)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -158,9 +170,10 @@ mod tests {
     #[test]
     fn text_on_any_grey_reaches_the_contrast_of_wcag_aa() {
         for level in 0..=255 {
+            let card = luminance(card_on(level));
             let (low, high) = match ink_on(level) {
-                Color32::BLACK => (0.0, luminance(level)),
-                _ => (luminance(level), 1.0),
+                Color32::BLACK => (0.0, card),
+                _ => (card, 1.0),
             };
             let contrast = (high + 0.05) / (low + 0.05);
             assert!(contrast >= 4.5, "level {level}: {contrast:.2}");

@@ -14,7 +14,8 @@ pub mod saving;
 pub mod trouble;
 
 use eframe::egui::{
-    self, Color32, FontFamily, FontId, InputState, Response, RichText, TextStyle, Ui,
+    self, Color32, FontFamily, FontId, Frame, InputState, Margin, Rect, Response, ScrollArea,
+    TextStyle, Ui, UiBuilder, pos2,
 };
 
 use super::{stimulus_view, theme};
@@ -22,28 +23,37 @@ use crate::protocol::Key;
 use crate::record::InputDevice;
 use crate::session::Event;
 
-/// Widest line of text, points; about 80 characters.
-const COLUMN: f32 = 760.0;
+/// Width of the card, points; a line holds about 80 characters.
+const COLUMN: f32 = 848.0;
 
-/// A page of text on the protocol's grey, in the middle of the screen. The grey
-/// is the one between the images, so that the eye stays adapted to it.
+/// A page of text: a quiet card on the protocol's grey. That grey is the one
+/// between the images, so that the eye stays adapted to it.
 fn page<R>(ui: &mut Ui, level: u8, add: impl FnOnce(&mut Ui) -> R) -> R {
     stimulus_view::paint_grey(ui.ctx(), level);
     let screen = ui.ctx().viewport_rect();
-    let width = COLUMN.min(screen.width() - 48.0).max(1.0);
-    let column = egui::Rect::from_min_max(
-        egui::pos2(
+    let width = COLUMN.min(screen.width() - 24.0).max(1.0);
+    let column = Rect::from_min_max(
+        pos2(
             screen.center().x - width / 2.0,
-            screen.top() + screen.height() * 0.14,
+            screen.top() + screen.height() * 0.1,
         ),
-        egui::pos2(screen.center().x + width / 2.0, screen.bottom() - 24.0),
+        pos2(screen.center().x + width / 2.0, screen.bottom() - 12.0),
     );
-    let builder = egui::UiBuilder::new().max_rect(column);
-    ui.scope_builder(builder, |ui| {
+    ui.scope_builder(UiBuilder::new().max_rect(column), |ui| {
         large_type(ui, level);
-        egui::ScrollArea::vertical()
+        ScrollArea::vertical()
             .auto_shrink(false)
-            .show(ui, add)
+            .show(ui, |ui| {
+                Frame::new()
+                    .fill(Color32::from_gray(theme::card_on(level)))
+                    .corner_radius(6)
+                    .inner_margin(Margin::symmetric(44, 36))
+                    .show(ui, |ui| {
+                        ui.set_min_width(ui.available_width());
+                        add(ui)
+                    })
+                    .inner
+            })
             .inner
     })
     .inner
@@ -64,15 +74,9 @@ fn large_type(ui: &mut Ui, level: u8) {
     }
 }
 
-/// A button as every screen has it: the same dark field whatever the grey.
+/// A button as every screen has it.
 fn button(ui: &mut Ui, text: &str, size: egui::Vec2) -> Response {
-    let text = RichText::new(text).color(Color32::from_gray(250));
-    ui.add(
-        egui::Button::new(text)
-            .fill(Color32::from_gray(45))
-            .stroke(egui::Stroke::new(1.0, Color32::BLACK))
-            .min_size(size),
-    )
+    ui.add(theme::primary_button(text, size))
 }
 
 /// What a pressed button was pressed with.

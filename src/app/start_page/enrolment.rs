@@ -1,7 +1,7 @@
 //! Who comes next: the participant's id, checked while it is typed, and the
 //! button that starts or resumes.
 
-use eframe::egui::{Key, TextEdit, Ui};
+use eframe::egui::{Key, Margin, TextEdit, Ui, vec2};
 
 use super::{Facts, Request};
 use crate::app::theme;
@@ -113,6 +113,7 @@ fn entry(ui: &mut Ui, form: &mut Enrolling) -> bool {
         TextEdit::singleline(&mut form.text)
             .hint_text("for example P01")
             .char_limit(64)
+            .margin(Margin::symmetric(10, 7))
             .desired_width(320.0),
     );
     let field = field.labelled_by(label.id);
@@ -171,7 +172,7 @@ fn resume(
 }
 
 fn start_button(ui: &mut Ui, text: &str, enabled: bool) -> bool {
-    ui.add_enabled(enabled, theme::primary_button(text))
+    ui.add_enabled(enabled, theme::primary_button(text, vec2(170.0, 44.0)))
         .clicked()
 }
 

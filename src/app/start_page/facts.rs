@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use eframe::egui::{Grid, Label, Ui};
+use eframe::egui::{Align, Grid, Label, Layout, Ui};
 
 use super::OnRecord;
 use crate::app::display::{DisplayFacts, DisplayTooSmall};
@@ -62,11 +62,16 @@ pub fn show(ui: &mut Ui, facts: &Facts<'_>) {
         ui.set_min_width(ui.available_width());
         Grid::new("facts")
             .num_columns(2)
-            .spacing([28.0, 8.0])
+            .spacing([28.0, 10.0])
             .min_col_width(110.0)
+            .min_row_height(0.0)
             .show(ui, |ui| {
+                // Nothing to hit here: rows as high as their text.
+                ui.spacing_mut().interact_size.y = 0.0;
                 for (name, lines) in lines(facts) {
-                    ui.label(theme::quiet(name));
+                    ui.with_layout(Layout::top_down(Align::Min), |ui| {
+                        ui.label(theme::quiet(name));
+                    });
                     ui.vertical(|ui| {
                         ui.spacing_mut().item_spacing.y = 3.0;
                         for line in lines {

@@ -3,13 +3,15 @@
 
 mod enrolment;
 mod facts;
+mod overview;
 
-use eframe::egui::{CentralPanel, Frame, Margin, RichText, ScrollArea, Ui};
+use eframe::egui::{Color32, Frame, Margin, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
 pub use enrolment::{Enrolling, OnRecord};
 pub use facts::Facts;
+pub use overview::lines as participants;
 
-use super::theme;
+use super::{stimulus_view, theme};
 use crate::record::ParticipantId;
 
 /// Widest the page gets, points.
@@ -26,25 +28,25 @@ pub enum Request {
 
 /// Draws the page.
 pub fn show(ui: &mut Ui, facts: &Facts<'_>, enrolling: &mut Enrolling) -> Option<Request> {
-    let side = ((ui.ctx().viewport_rect().width() - WIDTH) / 2.0).max(24.0);
-    #[allow(clippy::cast_possible_truncation)] // a margin of a window, under i8::MAX or capped
-    let margin = Margin::symmetric(side.min(f32::from(i8::MAX)) as i8, 28);
-    let frame = Frame::central_panel(ui.style()).inner_margin(margin);
-    CentralPanel::default()
-        .frame(frame)
-        .show(ui, |ui| {
-            ScrollArea::vertical()
-                .auto_shrink(false)
-                .show(ui, |ui| {
-                    ui.set_max_width(WIDTH);
-                    heading(ui, facts);
-                    let request = enrolment::show(ui, facts, enrolling);
-                    facts::show(ui, facts);
-                    request
-                })
-                .inner
-        })
-        .inner
+    let screen = ui.ctx().viewport_rect();
+    stimulus_view::paint_grey(ui.ctx(), theme::PAGE);
+    let width = WIDTH.min(screen.width() - 48.0).max(1.0);
+    let column = Rect::from_center_size(
+        screen.center() + vec2(0.0, 16.0),
+        vec2(width, (screen.height() - 56.0).max(1.0)),
+    );
+    ui.scope_builder(UiBuilder::new().max_rect(column), |ui| {
+        ScrollArea::vertical()
+            .auto_shrink(false)
+            .show(ui, |ui| {
+                heading(ui, facts);
+                let request = enrolment::show(ui, facts, enrolling);
+                facts::show(ui, facts);
+                request
+            })
+            .inner
+    })
+    .inner
 }
 
 fn heading(ui: &mut Ui, facts: &Facts<'_>) {
@@ -53,13 +55,13 @@ fn heading(ui: &mut Ui, facts: &Facts<'_>) {
         if facts.pilot {
             ui.add_space(8.0);
             Frame::new()
-                .fill(eframe::egui::Color32::from_gray(45))
+                .fill(Color32::from_gray(45))
                 .corner_radius(4)
                 .inner_margin(Margin::symmetric(10, 3))
                 .show(ui, |ui| {
                     ui.label(
                         RichText::new("Pilot: rows are marked as such")
-                            .color(eframe::egui::Color32::from_gray(250)),
+                            .color(Color32::from_gray(250)),
                     );
                 });
         }
