@@ -224,6 +224,8 @@ impl Application {
         }
         self.sitting = None;
         self.count_participants();
+        // An image may have changed meanwhile.
+        self.stimuli = None;
         if !self.setup.windowed {
             ctx.send_viewport_cmd(ViewportCommand::Fullscreen(false));
         }
