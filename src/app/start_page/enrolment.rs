@@ -117,13 +117,15 @@ fn entry(ui: &mut Ui, form: &mut Enrolling) -> bool {
             .desired_width(320.0),
     );
     let field = field.labelled_by(label.id);
-    if form.text.is_empty() && ui.memory(|memory| memory.focused().is_none()) {
+    let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+    let idle = form.text.is_empty() && ui.memory(|memory| memory.focused().is_none());
+    if entered || idle {
         field.request_focus();
     }
     if field.changed() {
         form.failure = None;
     }
-    field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter))
+    entered
 }
 
 /// Offers to go on with an interrupted session; true once that is confirmed.
