@@ -1,5 +1,8 @@
 //! The command line: one file a subcommand, no logic of its own.
 
+mod order;
+mod run;
+
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -19,7 +22,19 @@ struct Cli {
 }
 
 #[derive(Subcommand)]
-enum Command {}
+enum Command {
+    Run(Box<run::Run>),
+    Order(order::Order),
+}
+
+/// How much is said.
+#[derive(Debug, Clone, Copy)]
+pub struct Verbosity {
+    /// Only results and errors.
+    pub quiet: bool,
+    /// How often `-v` was given.
+    pub level: u8,
+}
 
 /// A failure with the exit code it ends in.
 #[derive(Debug)]
@@ -63,5 +78,12 @@ pub fn main() -> ExitCode {
 }
 
 fn run(cli: Cli) -> Result<(), Failure> {
-    match cli.command {}
+    let verbosity = Verbosity {
+        quiet: cli.quiet,
+        level: cli.verbose,
+    };
+    match cli.command {
+        Command::Run(args) => run::run(&args, verbosity),
+        Command::Order(args) => order::run(&args),
+    }
 }

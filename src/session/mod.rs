@@ -4,10 +4,14 @@
 //! drive the same [`Session`](machine::Session).
 
 pub mod event;
+pub mod headless;
 pub mod info;
 pub mod machine;
+pub mod observer;
 pub mod screen;
 pub mod start;
+#[cfg(test)]
+mod tests;
 mod trial_log;
 
 pub use event::{Effect, Event, SessionTime};

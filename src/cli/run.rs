@@ -1,0 +1,239 @@
+//! `greyfield run`: participant sessions.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use clap::{Args, ValueEnum};
+use serde_json::json;
+use time::OffsetDateTime;
+
+use super::{Failure, Verbosity};
+use crate::config;
+use crate::protocol::Protocol;
+use crate::record::RecordError;
+use crate::session::headless::{Headless, HeadlessError, Progress, Summary};
+use crate::session::observer::Scripted;
+use crate::session::start;
+use crate::stimulus::Manifest;
+
+/// Run participant sessions, in a window or with scripted observers.
+///
+/// Every answer is on disk before the next screen is shown. A session that was
+/// interrupted goes on where it stopped: run the same command again.
+///
+/// Example: greyfield run protocols/thesis-2010.toml --results results/thesis --headless --observer random:1 --participants 28
+#[derive(Debug, Args)]
+pub struct Run {
+    /// The protocol.
+    #[arg(value_name = "PROTOCOL.toml")]
+    pub protocol: PathBuf,
+    /// Folder for the data, of this protocol alone; made if it is not there.
+    #[arg(long, value_name = "DIR")]
+    pub results: PathBuf,
+    /// Folder of the rendered stimuli [default: beside the stimulus set's config, named like it].
+    #[arg(long, value_name = "DIR")]
+    pub stimuli: Option<PathBuf>,
+    /// Name of this computer in the rows.
+    #[arg(long, value_name = "NAME", default_value = "station-1")]
+    pub station: String,
+    /// Mark the rows as pilot data; pilot slots are counted apart.
+    #[arg(long)]
+    pub pilot: bool,
+    /// A window instead of the full screen, to try things out.
+    #[arg(long, conflicts_with = "headless")]
+    pub windowed: bool,
+    /// No window: scripted observers sit the same sessions in virtual time.
+    #[arg(long, requires_all = ["observer", "participants"])]
+    pub headless: bool,
+    /// Who answers: random:SEED (a fair coin) or first (always the first image).
+    #[arg(long, value_name = "OBSERVER", requires = "headless")]
+    pub observer: Option<String>,
+    /// How many scripted participants there are to be in the end.
+    #[arg(long, value_name = "N", requires = "headless", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub participants: Option<u32>,
+    /// What is printed: text, or one JSON object a line, a row's once it is synced.
+    #[arg(long, value_enum, default_value_t = Format::Text, requires = "headless")]
+    pub format: Format,
+}
+
+/// How a headless run tells what it does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// A summary; with -v a line a participant, with -vv a line a row.
+    Text,
+    /// One JSON object a line.
+    Json,
+}
+
+/// Everything a session needs from disk, checked.
+pub struct Prepared {
+    /// The protocol.
+    pub protocol: Protocol,
+    /// Its text.
+    pub protocol_text: String,
+    /// What was rendered.
+    pub manifest: Manifest,
+    /// Where the images are.
+    pub stimuli: PathBuf,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Bad input (exit code 2): protocol, stimuli, names. Otherwise the disk.
+pub fn run(args: &Run, verbosity: Verbosity) -> Result<(), Failure> {
+    let prepared = prepare(&args.protocol, args.stimuli.as_deref())?;
+    if args.headless {
+        headless(args, &prepared, verbosity)
+    } else {
+        Err(anyhow!("sessions in a window are not here yet; use --headless").into())
+    }
+}
+
+/// Reads the protocol and the rendered stimuli, and checks every image.
+///
+/// # Errors
+/// Bad input, naming the file and how to mend it.
+pub fn prepare(protocol_path: &Path, stimuli: Option<&Path>) -> Result<Prepared, Failure> {
+    let protocol_text = config::read(protocol_path).map_err(Failure::bad_input)?;
+    let protocol = Protocol::parse(protocol_path, &protocol_text).map_err(Failure::bad_input)?;
+    let set = protocol.stimulus_set(protocol_path);
+    let stimuli = stimuli.map_or_else(|| set.with_extension(""), Path::to_owned);
+    if !stimuli.join(crate::stimulus::manifest::FILE_NAME).exists() {
+        return Err(Failure::bad_input(anyhow!(
+            "{}: no rendered stimuli here; make them with `greyfield render {} --out {}`, or name their folder with --stimuli",
+            stimuli.display(),
+            set.display(),
+            stimuli.display()
+        )));
+    }
+    let manifest = Manifest::load(&stimuli).map_err(Failure::bad_input)?;
+    manifest.verify(&stimuli).map_err(Failure::bad_input)?;
+    Ok(Prepared {
+        protocol,
+        protocol_text,
+        manifest,
+        stimuli,
+    })
+}
+
+fn headless(args: &Run, prepared: &Prepared, verbosity: Verbosity) -> Result<(), Failure> {
+    let usage = |message: String| Failure::bad_input(anyhow!(message));
+    let scripted: Scripted = args
+        .observer
+        .as_deref()
+        .unwrap_or_default()
+        .parse()
+        .map_err(|message| usage(format!("--observer: {message}")))?;
+    let participants = args.participants.unwrap_or(1);
+    let study = start::open_study(
+        &args.results,
+        &prepared.protocol,
+        &prepared.protocol_text,
+        &prepared.manifest,
+    )
+    .map_err(failure_of_folder)?
+    .pilot(args.pilot);
+    let headless = Headless {
+        study: &study,
+        protocol: &prepared.protocol,
+        manifest: &prepared.manifest,
+        scripted: &scripted,
+        station: &args.station,
+    };
+    let mut output = io::stdout().lock();
+    let mut told = Ok(());
+    let summary = headless
+        .run(participants, OffsetDateTime::now_utc, |progress| {
+            if told.is_ok() {
+                told = tell(&mut output, &progress, args.format, verbosity);
+            }
+        })
+        .map_err(failure_of_run)?;
+    told?;
+    for warning in &summary.warnings {
+        eprintln!("warning: {warning}");
+    }
+    summarise(&mut output, &summary, args.format, verbosity)?;
+    Ok(())
+}
+
+/// A wrong folder or name is the user's to mend, a disk that fails is not.
+fn failure_of_folder(error: RecordError) -> Failure {
+    match error {
+        RecordError::Io { .. } | RecordError::Row { .. } => error.into(),
+        _ => Failure::bad_input(error),
+    }
+}
+
+fn failure_of_run(error: HeadlessError) -> Failure {
+    match error {
+        HeadlessError::Record(error) => failure_of_folder(error),
+        HeadlessError::Start(_) => Failure::bad_input(error),
+        HeadlessError::Store { .. } => error.into(),
+    }
+}
+
+fn tell(
+    output: &mut impl Write,
+    progress: &Progress,
+    format: Format,
+    verbosity: Verbosity,
+) -> io::Result<()> {
+    match (format, progress) {
+        (Format::Json, Progress::Started(enrolment)) => writeln!(
+            output,
+            "{}",
+            json!({"event": "started", "participant": enrolment.participant.as_str(), "slot": enrolment.slot, "segment": enrolment.segment, "answered": enrolment.rows.len()})
+        ),
+        (Format::Json, Progress::Stored { row_id, path }) => writeln!(
+            output,
+            "{}",
+            json!({"event": "stored", "row_id": row_id, "file": path})
+        ),
+        (Format::Json, Progress::Finished(participant)) => writeln!(
+            output,
+            "{}",
+            json!({"event": "finished", "participant": participant.as_str()})
+        ),
+        (Format::Text, Progress::Stored { row_id, .. }) if verbosity.level >= 2 => {
+            writeln!(output, "stored {row_id}")
+        }
+        (Format::Text, Progress::Finished(participant)) if verbosity.level >= 1 => {
+            writeln!(output, "finished {participant}")
+        }
+        (Format::Text, _) => Ok(()),
+    }
+}
+
+fn summarise(
+    output: &mut impl Write,
+    summary: &Summary,
+    format: Format,
+    verbosity: Verbosity,
+) -> io::Result<()> {
+    match format {
+        Format::Json => writeln!(
+            output,
+            "{}",
+            json!({"event": "done", "finished": summary.finished, "resumed": summary.resumed, "already_finished": summary.already_finished, "rows": summary.rows, "data": summary.data})
+        ),
+        Format::Text if verbosity.quiet => Ok(()),
+        Format::Text => {
+            write!(
+                output,
+                "{} sessions finished",
+                summary.finished + summary.resumed
+            )?;
+            if summary.resumed > 0 {
+                write!(output, " ({} of them resumed)", summary.resumed)?;
+            }
+            if summary.already_finished > 0 {
+                write!(output, ", {} were already", summary.already_finished)?;
+            }
+            let (rows, data) = (summary.rows, summary.data.display());
+            writeln!(output, "; {rows} rows written to {data}")
+        }
+    }
+}
