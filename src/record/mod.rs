@@ -24,6 +24,8 @@ pub mod row;
 mod slots;
 pub mod spreadsheet;
 pub mod study;
+#[cfg(test)]
+mod tests;
 
 pub use error::RecordError;
 pub use log::RowLog;

@@ -79,9 +79,11 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Rows, RecordError> {
     let mut lines = bytes.split(|&byte| byte == b'\n');
     let first = lines.next().unwrap_or_default();
     let mut result = Rows::default();
-    let Some(header) = header(path, first)? else {
+    if first.len() == bytes.len() && line::header().as_bytes().starts_with(bytes) {
+        // A crash has cut the header off: no row can be below it.
         return Ok(result);
-    };
+    }
+    let header = header(path, first)?;
     let mut seen = HashSet::new();
     for (index, text) in lines.enumerate() {
         let line = index as u64 + 2;
@@ -109,14 +111,9 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Rows, RecordError> {
     Ok(result)
 }
 
-/// The columns of a data file; `None` where a crash has cut the header off, so
-/// that no row can be below it.
-fn header(path: &Path, line: &[u8]) -> Result<Option<csv::StringRecord>, RecordError> {
+/// The columns of a data file, without the checksum's.
+fn header(path: &Path, line: &[u8]) -> Result<csv::StringRecord, RecordError> {
     let line = line.strip_suffix(b"\r").unwrap_or(line);
-    let ours = line::header();
-    if line.len() < ours.trim_end().len() && ours.as_bytes().starts_with(line) {
-        return Ok(None);
-    }
     let columns = std::str::from_utf8(line).unwrap_or_default();
     let named = columns.strip_suffix(&format!(",{}", line::CHECKSUM_COLUMN));
     let Some(named) = named.filter(|named| named.starts_with("row_id,")) else {
@@ -129,7 +126,7 @@ fn header(path: &Path, line: &[u8]) -> Result<Option<csv::StringRecord>, RecordE
             ),
         });
     };
-    Ok(Some(named.split(',').collect::<Vec<_>>().into()))
+    Ok(named.split(',').collect::<Vec<_>>().into())
 }
 
 /// A row whose checksum fits; if it cannot be read now, another version wrote it.
