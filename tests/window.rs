@@ -45,7 +45,14 @@ impl Window {
     fn open(study: &Tiny) -> Self {
         let x = Xvfb::start(1400, 1000);
         let mut application = Command::new(env!("CARGO_BIN_EXE_greyfield"))
-            .args(["run", "tiny.toml", "--results", "results", "--stimuli", "stimuli"])
+            .args([
+                "run",
+                "tiny.toml",
+                "--results",
+                "results",
+                "--stimuli",
+                "stimuli",
+            ])
             .args(["--windowed", "-v"])
             .current_dir(study.folder.path())
             .env("DISPLAY", &x.display)
@@ -164,7 +171,10 @@ fn on_grey(size_px: [u32; 2], rgba8: &[u8]) -> Pixels {
     let corner = [0, 1].map(|axis| (size_px[axis] - SIZE_PX[axis]) / 2);
     for (index, pixel) in rgba8.chunks_exact(4).enumerate() {
         let index = u32::try_from(index).expect("a small picture");
-        let (x, y) = (corner[0] + index % SIZE_PX[0], corner[1] + index / SIZE_PX[0]);
+        let (x, y) = (
+            corner[0] + index % SIZE_PX[0],
+            corner[1] + index / SIZE_PX[0],
+        );
         let at = 3 * (y * size_px[0] + x) as usize;
         rgb8[at..at + 3].copy_from_slice(&pixel[..3]);
     }
@@ -178,7 +188,11 @@ fn find_button(pixels: &Pixels) -> Option<[u32; 2]> {
     for y in 0..height.saturating_sub(8) {
         let mut run = 0;
         for x in 0..width {
-            run = if pixels.at(x, y) == [45; 3] { run + 1 } else { 0 };
+            run = if pixels.at(x, y) == [45; 3] {
+                run + 1
+            } else {
+                0
+            };
             if run == RUN {
                 return Some([x - RUN / 2, y + 8]);
             }
@@ -243,7 +257,10 @@ fn assert_idle(window: &Window) {
     let before = window.ticks();
     std::thread::sleep(Duration::from_secs(2));
     let used = window.ticks() - before;
-    assert!(used <= 4, "{used} clock ticks used in 2 s of standing image");
+    assert!(
+        used <= 4,
+        "{used} clock ticks used in 2 s of standing image"
+    );
 }
 
 fn check_rows(study: &Tiny) {
@@ -274,7 +291,14 @@ fn without_a_display_the_error_names_the_way_out() {
     let study = Tiny::new(1, SIZE_PX);
     for display in ["", ":64999"] {
         let output = Command::new(env!("CARGO_BIN_EXE_greyfield"))
-            .args(["run", "tiny.toml", "--results", "results", "--stimuli", "stimuli"])
+            .args([
+                "run",
+                "tiny.toml",
+                "--results",
+                "results",
+                "--stimuli",
+                "stimuli",
+            ])
             .current_dir(study.folder.path())
             .env("DISPLAY", display)
             .env_remove("WAYLAND_DISPLAY")

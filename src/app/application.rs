@@ -52,7 +52,7 @@ pub struct Application {
     setup: Setup,
     protocol: Rc<Protocol>,
     window: Option<Arc<Window>>,
-    stimuli: Option<StimuliCheck>,
+    stimuli: StimuliCheck,
     participants: Result<Vec<String>, String>,
     enrolling: Enrolling,
     sitting: Option<Box<Sitting>>,
@@ -74,7 +74,7 @@ impl Application {
             protocol: Rc::new(setup.protocol.clone()),
             setup,
             window: None,
-            stimuli: None,
+            stimuli: StimuliCheck::Waiting,
             participants: Ok(Vec::new()),
             enrolling: Enrolling::default(),
             sitting: None,
@@ -122,9 +122,13 @@ impl Application {
 
     fn start_page(&mut self, ui: &mut Ui) {
         let setup = &self.setup;
-        let stimuli = self.stimuli.get_or_insert_with(|| {
-            StimuliCheck::start(ui.ctx(), setup.manifest.clone(), setup.stimuli.clone())
-        });
+        let stimuli = &mut self.stimuli;
+        if self.frames == 0 {
+            // The first frame has both processor cores for itself.
+            ui.ctx().request_repaint();
+        } else if matches!(stimuli, StimuliCheck::Waiting) {
+            *stimuli = StimuliCheck::start(ui.ctx(), setup.manifest.clone(), setup.stimuli.clone());
+        }
         stimuli.poll();
         let image_px = image_px(&setup.manifest);
         let display = DisplayFacts::read(ui.ctx(), self.window.as_deref());
@@ -225,7 +229,7 @@ impl Application {
         self.sitting = None;
         self.count_participants();
         // An image may have changed meanwhile.
-        self.stimuli = None;
+        self.stimuli = StimuliCheck::Waiting;
         if !self.setup.windowed {
             ctx.send_viewport_cmd(ViewportCommand::Fullscreen(false));
         }
@@ -265,6 +269,8 @@ impl Content for Application {
     }
 
     fn opened(&mut self, ctx: &Context, window: Option<Arc<Window>>) {
+        let elapsed = self.setup.started.elapsed();
+        tracing::debug!(ms = elapsed.as_millis(), "window and adapter ready");
         theme::install(ctx);
         self.window = window;
     }
@@ -277,6 +283,7 @@ impl Content for Application {
 
     fn presented(&mut self, ctx: &Context, at: Instant) {
         self.frames += 1;
+        tracing::trace!(frames = self.frames, "presented");
         if !std::mem::replace(&mut self.first_frame_seen, true) {
             let elapsed = at.saturating_duration_since(self.setup.started);
             tracing::info!(ms = elapsed.as_millis(), "first frame");

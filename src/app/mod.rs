@@ -29,7 +29,18 @@ pub use display::available as display_available;
 pub use error::AppError;
 
 /// Smallest window the start page reads well in, points.
-const START_PAGE: stimulus_view::SizePx = [1280, 800];
+const START_PAGE: [u32; 2] = [1280, 800];
+
+/// Whether there is a display to open a window on.
+///
+/// # Errors
+/// [`AppError::NoDisplay`] saying what is missing.
+pub fn check_display() -> Result<(), AppError> {
+    match display::missing() {
+        Some(detail) => Err(AppError::NoDisplay { detail }),
+        None => Ok(()),
+    }
+}
 
 /// Opens the application on a study and runs until its window is closed.
 ///
@@ -37,12 +48,10 @@ const START_PAGE: stimulus_view::SizePx = [1280, 800];
 /// [`AppError`] if there is no display, no graphics adapter, or the window system
 /// fails.
 pub fn run(setup: Setup) -> Result<(), AppError> {
-    if let Some(detail) = display::missing() {
-        return Err(AppError::NoDisplay { detail });
-    }
+    check_display()?;
     let title = format!("Greyfield: {}", &*setup.protocol.study_id);
     let application = Application::new(setup);
     let image_px = application.image_px();
-    let size_px = [0, 1].map(|axis| image_px[axis].max(START_PAGE[axis]));
-    window::run(&title, size_px, &(Rc::new(RefCell::new(application)) as _))
+    let size = [0, 1].map(|axis| image_px[axis].max(START_PAGE[axis]));
+    window::run(&title, size, &(Rc::new(RefCell::new(application)) as _))
 }

@@ -11,6 +11,8 @@ use crate::stimulus::Manifest;
 /// The check of one stimulus set.
 #[derive(Debug)]
 pub enum StimuliCheck {
+    /// Not begun.
+    Waiting,
     /// On its way.
     Running(Receiver<Result<(), String>>),
     /// Every image is there, unchanged.

@@ -20,7 +20,6 @@ use winit::event_loop::{ActiveEventLoop, EventLoop};
 use winit::window::{Window, WindowId};
 
 use super::error::AppError;
-use super::stimulus_view::SizePx;
 
 /// What the window tells its content besides egui's own input.
 pub trait Content {
@@ -36,13 +35,13 @@ pub trait Content {
     fn clear_level(&self) -> u8;
 }
 
-/// Opens the window and runs until it closes.
+/// Opens a window of the given size, in points, and runs until it closes.
 ///
 /// # Errors
 /// [`AppError`] if there is no display, no adapter, or the window system fails.
 pub fn run(
     title: &str,
-    size_px: SizePx,
+    size_points: [u32; 2],
     content: &Rc<RefCell<dyn Content>>,
 ) -> Result<(), AppError> {
     let event_loop = EventLoop::<UserEvent>::with_user_event()
@@ -50,9 +49,10 @@ pub fn run(
         .map_err(|error| AppError::NoDisplay {
             detail: error.to_string(),
         })?;
+    tracing::debug!("event loop ready");
     let dropped = Arc::new(AtomicBool::new(false));
     let adapter_failure = Arc::new(Mutex::new(None));
-    let options = native_options(title, size_px, &dropped, &adapter_failure);
+    let options = native_options(title, size_points, &dropped, &adapter_failure);
     let context: Rc<RefCell<Option<egui::Context>>> = Rc::default();
 
     let creator = {
@@ -179,7 +179,7 @@ fn is_press(event: &WindowEvent) -> bool {
 
 fn native_options(
     title: &str,
-    size_px: SizePx,
+    size_points: [u32; 2],
     dropped: &Arc<AtomicBool>,
     adapter_failure: &Arc<Mutex<Option<String>>>,
 ) -> NativeOptions {
@@ -188,7 +188,7 @@ fn native_options(
             .with_title(title)
             .with_app_id("greyfield")
             .with_icon(icon())
-            .with_inner_size(egui::vec2(size_px[0] as f32, size_px[1] as f32)),
+            .with_inner_size(egui::vec2(size_points[0] as f32, size_points[1] as f32)),
         renderer: eframe::Renderer::Wgpu,
         multisampling: 0,
         // Dithering adds noise to levels between two bytes; a stimulus has none,

@@ -1,5 +1,6 @@
 //! The command line: one file a subcommand, no logic of its own.
 
+mod logging;
 mod order;
 mod run;
 
@@ -82,6 +83,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         quiet: cli.quiet,
         level: cli.verbose,
     };
+    logging::init(verbosity);
     match cli.command {
         Command::Run(args) => run::run(&args, verbosity),
         Command::Order(args) => order::run(&args),

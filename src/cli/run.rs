@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
@@ -9,6 +10,7 @@ use serde_json::json;
 use time::OffsetDateTime;
 
 use super::{Failure, Verbosity};
+use crate::app;
 use crate::config;
 use crate::protocol::Protocol;
 use crate::record::RecordError;
@@ -83,12 +85,40 @@ pub struct Prepared {
 /// # Errors
 /// Bad input (exit code 2): protocol, stimuli, names. Otherwise the disk.
 pub fn run(args: &Run, verbosity: Verbosity) -> Result<(), Failure> {
+    let started = Instant::now();
+    if !args.headless {
+        // Before anything is written.
+        app::check_display()?;
+    }
     let prepared = prepare(&args.protocol, args.stimuli.as_deref())?;
     if args.headless {
         headless(args, &prepared, verbosity)
     } else {
-        Err(anyhow!("sessions in a window are not here yet; use --headless").into())
+        windowed(args, prepared, started)
     }
+}
+
+/// Opens the application.
+fn windowed(args: &Run, prepared: Prepared, started: Instant) -> Result<(), Failure> {
+    let study = start::open_study(
+        &args.results,
+        &prepared.protocol,
+        &prepared.protocol_text,
+        &prepared.manifest,
+    )
+    .map_err(failure_of_folder)?;
+    app::run(app::Setup {
+        protocol: prepared.protocol,
+        protocol_path: args.protocol.clone(),
+        manifest: prepared.manifest,
+        stimuli: prepared.stimuli,
+        study,
+        station: args.station.clone(),
+        pilot: args.pilot,
+        windowed: args.windowed,
+        started,
+    })?;
+    Ok(())
 }
 
 /// Reads the protocol and the rendered stimuli, and checks every image.

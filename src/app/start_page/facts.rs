@@ -48,7 +48,9 @@ impl Facts<'_> {
             return Some(format!("No session can start here: {too_small}"));
         }
         match self.stimuli {
-            StimuliCheck::Running(_) => Some(String::from("Checking the images …")),
+            StimuliCheck::Waiting | StimuliCheck::Running(_) => {
+                Some(String::from("Checking the images …"))
+            }
             StimuliCheck::Failed(detail) => Some(format!("No session can start: {detail}")),
             StimuliCheck::Passed => None,
         }
@@ -144,7 +146,9 @@ fn stimuli(facts: &Facts<'_>) -> Line {
     let (count, [columns, rows]) = facts.images;
     let what = format!("{count} images of {columns}×{rows} pixels");
     match facts.stimuli {
-        StimuliCheck::Running(_) => Line::plain(format!("{what}; being checked …")),
+        StimuliCheck::Waiting | StimuliCheck::Running(_) => {
+            Line::plain(format!("{what}; being checked …"))
+        }
         StimuliCheck::Passed => Line::checked(true, format!("{what}, all as they were made")),
         StimuliCheck::Failed(detail) => Line::checked(false, detail),
     }
