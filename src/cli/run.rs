@@ -85,23 +85,57 @@ pub struct Prepared {
 /// # Errors
 /// Bad input (exit code 2): protocol, stimuli, names. Otherwise the disk.
 pub fn run(args: &Run, verbosity: Verbosity) -> Result<(), Failure> {
-    let started = Instant::now();
-    if !args.headless {
-        // Before anything is written.
-        app::check_display()?;
-    }
-    let prepared = prepare(&args.protocol, args.stimuli.as_deref())?;
     if args.headless {
-        headless(args, &prepared, verbosity)
-    } else {
-        windowed(args, prepared, started)
+        let prepared = prepare(&args.protocol, args.stimuli.as_deref())?;
+        return headless(args, &prepared, verbosity);
     }
+    open_window(&InWindow {
+        protocol: &args.protocol,
+        stimuli: args.stimuli.as_deref(),
+        results: &args.results,
+        station: &args.station,
+        pilot: args.pilot,
+        windowed: args.windowed,
+    })
 }
 
-/// Opens the application.
-fn windowed(args: &Run, prepared: Prepared, started: Instant) -> Result<(), Failure> {
+/// Sessions in a window that covers the screen, until it is closed.
+///
+/// # Errors
+/// As [`run`]; also no display, or no graphics adapter.
+pub fn window(
+    protocol: &Path,
+    stimuli: Option<&Path>,
+    results: &Path,
+    station: &str,
+    pilot: bool,
+) -> Result<(), Failure> {
+    open_window(&InWindow {
+        protocol,
+        stimuli,
+        results,
+        station,
+        pilot,
+        windowed: false,
+    })
+}
+
+struct InWindow<'a> {
+    protocol: &'a Path,
+    stimuli: Option<&'a Path>,
+    results: &'a Path,
+    station: &'a str,
+    pilot: bool,
+    windowed: bool,
+}
+
+fn open_window(wanted: &InWindow<'_>) -> Result<(), Failure> {
+    let started = Instant::now();
+    // Before anything is written.
+    app::check_display()?;
+    let prepared = prepare(wanted.protocol, wanted.stimuli)?;
     let study = start::open_study(
-        &args.results,
+        wanted.results,
         &prepared.protocol,
         &prepared.protocol_text,
         &prepared.manifest,
@@ -109,13 +143,13 @@ fn windowed(args: &Run, prepared: Prepared, started: Instant) -> Result<(), Fail
     .map_err(failure_of_folder)?;
     app::run(app::Setup {
         protocol: prepared.protocol,
-        protocol_path: args.protocol.clone(),
+        protocol_path: wanted.protocol.to_owned(),
         manifest: prepared.manifest,
         stimuli: prepared.stimuli,
         study,
-        station: args.station.clone(),
-        pilot: args.pilot,
-        windowed: args.windowed,
+        station: wanted.station.to_owned(),
+        pilot: wanted.pilot,
+        windowed: wanted.windowed,
         started,
     })?;
     Ok(())

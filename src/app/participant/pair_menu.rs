@@ -1,6 +1,6 @@
 //! The page with the pairs: one button each, only the next one's enabled.
 
-use eframe::egui::{Color32, Ui, WidgetInfo, WidgetType, vec2};
+use eframe::egui::{Color32, Role, Ui, WidgetInfo, vec2};
 
 use super::{Given, button, device, page};
 use crate::app::theme;
@@ -39,7 +39,7 @@ fn pair(ui: &mut Ui, texts: &Texts, index: usize, next: usize) -> Option<Given> 
             theme::paint_tick(ui.painter(), centre, 18.0, Color32::from_gray(250));
         }
         pressed.widget_info(|| {
-            WidgetInfo::selected(WidgetType::Button, index == next, done, caption.as_str())
+            WidgetInfo::selected(Role::Button, index == next, done, caption.as_str())
         });
         pressed
             .clicked()
