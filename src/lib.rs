@@ -12,6 +12,7 @@
 
 pub mod config;
 pub mod digest;
+pub mod embedded;
 pub mod seed;
 
 pub mod scene;

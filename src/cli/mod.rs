@@ -1,12 +1,16 @@
 //! The command line: one file a subcommand, no logic of its own.
 
+mod analyse;
 mod logging;
 mod order;
+mod output;
+mod render;
 mod run;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+pub use output::Verbosity;
 
 /// Psychophysics of ambient occlusion: render pairs, run sessions, analyse choices.
 #[derive(Parser)]
@@ -24,17 +28,10 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Render(render::RenderArgs),
     Run(Box<run::Run>),
     Order(order::Order),
-}
-
-/// How much is said.
-#[derive(Debug, Clone, Copy)]
-pub struct Verbosity {
-    /// Only results and errors.
-    pub quiet: bool,
-    /// How often `-v` was given.
-    pub level: u8,
+    Analyse(analyse::AnalyseArgs),
 }
 
 /// A failure with the exit code it ends in.
@@ -85,7 +82,9 @@ fn run(cli: Cli) -> Result<(), Failure> {
     };
     logging::init(verbosity);
     match cli.command {
+        Command::Render(args) => render::run(&args, verbosity),
         Command::Run(args) => run::run(&args, verbosity),
         Command::Order(args) => order::run(&args),
+        Command::Analyse(args) => analyse::run(&args),
     }
 }

@@ -4,11 +4,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use serde::Deserialize;
 
 use super::Failure;
 use crate::config;
 use crate::protocol::{Condition, Protocol, SessionPlan};
+use crate::stimulus::StimulusSet;
+use crate::stimulus::set::SetCondition;
 
 /// Print who sees which pairs in which order, as CSV.
 ///
@@ -89,28 +90,14 @@ fn is_broken_pipe(failure: &Failure) -> bool {
     direct.or(by_csv).unwrap_or(false)
 }
 
-/// The part of a stimulus set's config that a design needs.
-#[derive(Deserialize)]
-struct Set {
-    condition: Vec<SetCondition>,
-}
-
-#[derive(Deserialize)]
-struct SetCondition {
-    id: String,
-    scene: String,
-    first: String,
-    second: String,
-}
-
-/// The conditions of a stimulus set that need not be rendered.
+/// The conditions of a stimulus set, which need not be rendered for this.
 fn conditions(set: &Path) -> Result<Vec<Condition>, Failure> {
-    let set: Set = config::load(set).map_err(Failure::bad_input)?;
-    let condition = |written: SetCondition| Condition {
-        id: written.id,
-        scene: written.scene,
-        first_technique: written.first,
-        second_technique: written.second,
+    let set = StimulusSet::load(set).map_err(Failure::bad_input)?;
+    let condition = |condition: &SetCondition| Condition {
+        id: condition.id.clone(),
+        scene: set.scenes[condition.scene].id.clone(),
+        first_technique: condition.first.label.clone(),
+        second_technique: condition.second.label.clone(),
     };
-    Ok(set.condition.into_iter().map(condition).collect())
+    Ok(set.conditions.iter().map(condition).collect())
 }

@@ -224,14 +224,14 @@ fn headless(args: &Run, prepared: &Prepared, verbosity: Verbosity) -> Result<(),
 }
 
 /// A wrong folder or name is the user's to mend, a disk that fails is not.
-fn failure_of_folder(error: RecordError) -> Failure {
+pub(super) fn failure_of_folder(error: RecordError) -> Failure {
     match error {
         RecordError::Io { .. } | RecordError::Row { .. } => error.into(),
         _ => Failure::bad_input(error),
     }
 }
 
-fn failure_of_run(error: HeadlessError) -> Failure {
+pub(super) fn failure_of_run(error: HeadlessError) -> Failure {
     match error {
         HeadlessError::Record(error) => failure_of_folder(error),
         HeadlessError::Start(_) => Failure::bad_input(error),

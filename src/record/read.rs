@@ -12,6 +12,8 @@ use super::{RecordError, TrialRow, files};
 pub struct Rows {
     /// Whole rows, in the order of the files.
     pub rows: Vec<TrialRow>,
+    /// The line each of them stands on in its file, from 1.
+    pub lines: Vec<u64>,
     /// What was passed over.
     pub warnings: Vec<Warning>,
 }
@@ -68,6 +70,7 @@ pub fn read_folder(results: &Path) -> Result<Rows, RecordError> {
         if name.ends_with(super::DATA_SUFFIX) && !name.starts_with('.') {
             let rows = read_rows(&data.join(name))?;
             all.rows.extend(rows.rows);
+            all.lines.extend(rows.lines);
             all.warnings.extend(rows.warnings);
         }
     }
@@ -104,6 +107,7 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Rows, RecordError> {
         let row = decode(path, line, &header, fields)?;
         if seen.insert(row.row_id.clone()) {
             result.rows.push(row);
+            result.lines.push(line);
         } else {
             warn(Flaw::Repeated);
         }

@@ -1,1 +1,29 @@
-//! (room under construction)
+//! The GPU: a scene config in, an image out, headless, on any adapter wgpu finds,
+//! a software one included. Same config, seed and adapter: same bytes.
+//!
+//! A frame is planned before it is drawn ([`plan`]): only the passes a scene calls for
+//! exist. A technique is one Rust file and one WGSL file ([`technique`]). Everything
+//! else is a pass ([`pass`]) that reads and writes named targets.
+
+mod bindings;
+pub mod device;
+mod error;
+mod frame;
+mod pass;
+pub mod plan;
+mod readback;
+mod renderer;
+mod shader;
+pub mod technique;
+mod timestamps;
+mod upload;
+
+pub use device::Gpu;
+pub use error::RenderError;
+pub use frame::{FrameRequest, Precision};
+pub use readback::{FloatImage, LinearDepth};
+pub use renderer::{RenderedFrame, Renderer};
+pub use upload::GpuScene;
+
+#[cfg(test)]
+mod tests;

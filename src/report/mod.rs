@@ -1,1 +1,53 @@
-//! (room under construction)
+//! Results for people and machines: terminal tables, CSV, JSON, one self-contained HTML page.
+//!
+//! The same analysis gives the same bytes: nothing here reads a clock, and the order of everything
+//! is that of the registry and of the data.
+
+mod csv;
+mod html;
+mod json;
+mod methods;
+mod number;
+mod text;
+
+use crate::analysis::Analysis;
+
+/// How to write a report.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Aligned tables for a terminal.
+    Text,
+    /// Everything, with full precision.
+    Json,
+    /// The table of conditions, with full precision.
+    Csv,
+    /// One page with figures that needs nothing from the network.
+    Html,
+}
+
+/// A report that could not be written out.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// The CSV writer gave up.
+    #[error("the CSV table cannot be written: {0}")]
+    Csv(#[from] ::csv::Error),
+    /// The JSON writer gave up.
+    #[error("the JSON report cannot be written: {0}")]
+    Json(#[from] serde_json::Error),
+}
+
+/// The report, UTF-8, ending in a line feed.
+///
+/// # Errors
+/// [`ReportError`]; none is known to occur for a result of [`analyse`](crate::analysis::analyse).
+pub fn render(analysis: &Analysis, format: Format) -> Result<String, ReportError> {
+    match format {
+        Format::Text => Ok(text::render(analysis)),
+        Format::Json => json::render(analysis),
+        Format::Csv => csv::render(&analysis.conditions),
+        Format::Html => Ok(html::render(analysis)),
+    }
+}
+
+/// Greyfield's version, as it stands in reports.
+const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -5,7 +5,18 @@
 //! triangles are counter-clockwise seen from outside; colours are linear unless a
 //! name says sRGB.
 
+pub mod camera;
+pub mod config;
+pub mod environment;
 pub mod geometry;
+pub mod lighting;
+pub mod modelling;
+pub mod primitives;
 pub mod procedural;
+pub mod texture;
 
+pub use camera::Camera;
+pub use config::{SceneConfig, SceneError};
+pub use environment::{Environment, Irradiance};
 pub use geometry::{Geometry, Material, Mesh, Texture, TextureEncoding, Vertex};
+pub use lighting::{Ambient, Background, Lighting, Sun, ToneMap};

@@ -101,6 +101,14 @@ pub enum StimulusError {
         /// Why.
         source: std::io::Error,
     },
+    /// A file could not be written.
+    #[error("{}: cannot be written: {source}; free space or choose another folder with --out", path.display())]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
     /// The manifest is not one.
     #[error("{}: not a manifest of this version: {message}; render the set again with `greyfield render`", path.display())]
     Malformed {

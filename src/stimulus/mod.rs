@@ -1,6 +1,11 @@
 //! Stimuli: sets of image pairs, where each image came from, and whether it is
 //! still the image that was made.
 
+pub mod files;
 pub mod manifest;
+pub mod produce;
+pub mod set;
+pub mod sheet;
 
-pub use manifest::{ImageRecord, Manifest, PairRecord};
+pub use manifest::{ImageRecord, Manifest, PairRecord, Picture, StimulusError};
+pub use set::StimulusSet;

@@ -1,11 +1,16 @@
 //! Scenes that need no file: generated from a seed, the same on every machine.
 //!
-//! Each generator is one file that declares itself as a [`Generator`], and one
-//! line in [`GENERATORS`].
+//! Each generator is one file or folder that declares itself as a [`Generator`], and
+//! one line in [`GENERATORS`].
+
+pub mod atrium;
+pub mod figures;
+pub mod figurine;
 
 use super::Geometry;
 
 /// A procedural scene.
+#[derive(Debug)]
 pub struct Generator {
     /// Name in scene configs (`[geometry] generator = "atrium"`).
     pub name: &'static str,
@@ -16,7 +21,11 @@ pub struct Generator {
 }
 
 /// Every generator there is.
-pub const GENERATORS: &[&Generator] = &[];
+pub const GENERATORS: &[&Generator] = &[
+    &atrium::GENERATOR,
+    &figurine::GENERATOR,
+    &figures::GENERATOR,
+];
 
 /// The generator of that name.
 #[must_use]

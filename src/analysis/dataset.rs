@@ -1,0 +1,209 @@
+//! What the statistics work on: votes by condition, and where single answers are known, the
+//! answers themselves.
+
+use serde::Serialize;
+
+use crate::protocol::Position;
+
+/// Votes for the two techniques of one condition.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct Votes {
+    /// For technique a, the first of the base order.
+    pub a: u32,
+    /// For technique b.
+    pub b: u32,
+}
+
+impl Votes {
+    /// Number of votes. The readers keep the sum within 32 bits.
+    #[must_use]
+    pub fn total(self) -> u32 {
+        self.a.saturating_add(self.b)
+    }
+
+    /// Share of technique b, 0 to 1; `None` without votes.
+    #[must_use]
+    pub fn share_b(self) -> Option<f64> {
+        (self.total() > 0).then(|| f64::from(self.b) / f64::from(self.total()))
+    }
+}
+
+/// Which technique of the pair stood first in a trial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Order {
+    /// The base order: technique a, then b.
+    AThenB,
+    /// Turned round.
+    BThenA,
+}
+
+/// Answers of one condition by the order shown and the position chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct OrderCounts {
+    /// Shown a then b, chose the first (a).
+    pub ab_first: u32,
+    /// Shown a then b, chose the second (b).
+    pub ab_second: u32,
+    /// Shown b then a, chose the first (b).
+    pub ba_first: u32,
+    /// Shown b then a, chose the second (a).
+    pub ba_second: u32,
+    /// Trials without an answer.
+    pub missing: u32,
+}
+
+impl OrderCounts {
+    /// Counts one trial.
+    pub fn add(&mut self, order: Order, chosen: Option<Position>) {
+        let cell = match (order, chosen) {
+            (_, None) => &mut self.missing,
+            (Order::AThenB, Some(Position::First)) => &mut self.ab_first,
+            (Order::AThenB, Some(Position::Second)) => &mut self.ab_second,
+            (Order::BThenA, Some(Position::First)) => &mut self.ba_first,
+            (Order::BThenA, Some(Position::Second)) => &mut self.ba_second,
+        };
+        *cell += 1;
+    }
+
+    /// Votes by technique.
+    #[must_use]
+    pub fn votes(&self) -> Votes {
+        Votes {
+            a: self.ab_first + self.ba_second,
+            b: self.ab_second + self.ba_first,
+        }
+    }
+
+    /// Answers by position: (first, second).
+    #[must_use]
+    pub fn positions(&self) -> (u32, u32) {
+        (
+            self.ab_first + self.ba_first,
+            self.ab_second + self.ba_second,
+        )
+    }
+
+    /// Answers by order shown: (a then b, b then a).
+    #[must_use]
+    pub fn orders(&self) -> (u32, u32) {
+        (
+            self.ab_first + self.ab_second,
+            self.ba_first + self.ba_second,
+        )
+    }
+}
+
+/// One condition: two techniques on one scene, and how the votes fell.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ConditionData {
+    /// Condition id.
+    pub id: String,
+    /// Technique a of the base order.
+    pub technique_a: String,
+    /// Technique b.
+    pub technique_b: String,
+    /// What it asks (`H1`), where the input says.
+    pub hypothesis: Option<String>,
+    /// The votes.
+    pub votes: Votes,
+    /// By order and position; `None` when only counts are known.
+    pub orders: Option<OrderCounts>,
+}
+
+/// One trial's answer, by number of participant and condition.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answer {
+    /// Index into [`Dataset::participants`].
+    pub participant: u32,
+    /// Index into [`Dataset::conditions`].
+    pub condition: u32,
+    /// Order shown.
+    pub order: Order,
+    /// The choice; `None` for a trial without an answer.
+    pub chosen: Option<Position>,
+    /// Response time, milliseconds from the question's onset, where known.
+    pub response_time_ms: Option<f32>,
+}
+
+impl Answer {
+    /// Whether technique b was chosen.
+    #[must_use]
+    pub fn chose_b(&self) -> Option<bool> {
+        self.chosen
+            .map(|position| (position == Position::Second) == (self.order == Order::AThenB))
+    }
+}
+
+/// A file the data came from.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Source {
+    /// As it was named on the command line, or found in a folder that was.
+    pub path: String,
+    /// What it was recognised as.
+    pub kind: &'static str,
+    /// SHA-256 of its bytes.
+    pub sha256: String,
+    /// Data rows used.
+    pub rows_used: u64,
+    /// Data rows left out (practice, catch and pilot trials).
+    pub rows_left_out: u64,
+}
+
+/// Everything read from the inputs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Dataset {
+    /// The files.
+    pub sources: Vec<Source>,
+    /// The conditions: in the order of a count table, else by id.
+    pub conditions: Vec<ConditionData>,
+    /// Participants' ids in order of appearance; empty when only counts are known.
+    pub participants: Vec<String>,
+    /// Single answers, in the order read; empty when only counts are known.
+    pub answers: Vec<Answer>,
+    /// What a reader of the results should know about the input: left-out rows, repaired lines.
+    pub notes: Vec<String>,
+}
+
+impl Dataset {
+    /// Whether single answers are known, not only counts.
+    #[must_use]
+    pub fn has_answers(&self) -> bool {
+        !self.answers.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reversed_trial_counts_for_the_technique_not_the_position() {
+        let mut counts = OrderCounts::default();
+        counts.add(Order::AThenB, Some(Position::Second));
+        counts.add(Order::BThenA, Some(Position::First));
+        counts.add(Order::BThenA, Some(Position::Second));
+        counts.add(Order::AThenB, None);
+        assert_eq!(counts.votes(), Votes { a: 1, b: 2 });
+        assert_eq!(counts.positions(), (1, 2));
+        assert_eq!(counts.orders(), (1, 2));
+        assert_eq!(counts.missing, 1);
+    }
+
+    #[test]
+    fn an_answer_names_the_same_technique_as_the_counts() {
+        for order in [Order::AThenB, Order::BThenA] {
+            for position in [Position::First, Position::Second] {
+                let answer = Answer {
+                    participant: 0,
+                    condition: 0,
+                    order,
+                    chosen: Some(position),
+                    response_time_ms: None,
+                };
+                let mut counts = OrderCounts::default();
+                counts.add(order, Some(position));
+                assert_eq!(answer.chose_b(), Some(counts.votes().b == 1));
+            }
+        }
+    }
+}

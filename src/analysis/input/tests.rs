@@ -1,0 +1,226 @@
+use super::*;
+use crate::analysis::dataset::Votes;
+use proptest::prelude::*;
+
+const TRIALS: &str = "participant,condition,first_technique,second_technique,chosen,rt_ms\n";
+const COUNTS: &str = "condition,technique_a,technique_b,votes_a,votes_b\n";
+
+fn read_texts(texts: &[&str]) -> Result<Dataset, InputError> {
+    let dir = tempfile::tempdir().unwrap();
+    let paths: Vec<PathBuf> = texts
+        .iter()
+        .enumerate()
+        .map(|(i, text)| {
+            let path = dir.path().join(format!("{i}.csv"));
+            std::fs::write(&path, text).unwrap();
+            path
+        })
+        .collect();
+    read(&paths, Options::default())
+}
+
+fn error_of(texts: &[&str]) -> String {
+    read_texts(texts).unwrap_err().to_string()
+}
+
+#[test]
+fn trials_in_either_order_count_for_the_same_pair() {
+    let data = read_texts(&[&format!(
+        "{TRIALS}P1,c,none,crytek24,second,812.5\nP2,c,crytek24,none,first,\nP3,c,none,crytek24,first,3\nP4,c,none,crytek24,,\n"
+    )])
+    .unwrap();
+    let condition = &data.conditions[0];
+    assert_eq!(
+        (
+            condition.technique_a.as_str(),
+            condition.technique_b.as_str()
+        ),
+        ("none", "crytek24")
+    );
+    assert_eq!(condition.votes, Votes { a: 1, b: 2 });
+    let orders = condition.orders.unwrap();
+    assert_eq!(
+        (orders.orders(), orders.positions(), orders.missing),
+        ((2, 1), (2, 1), 1)
+    );
+    assert_eq!(data.participants, ["P1", "P2", "P3", "P4"]);
+    assert_eq!(data.answers[0].response_time_ms, Some(812.5));
+}
+
+#[test]
+fn conditions_of_trials_are_sorted_by_id_and_those_of_counts_are_not() {
+    let data = read_texts(&[&format!("{TRIALS}P,z,x,y,first,\nP,a,u,v,second,\n")]).unwrap();
+    let ids: Vec<&str> = data.conditions.iter().map(|c| c.id.as_str()).collect();
+    assert_eq!(ids, ["a", "z"]);
+    assert_eq!(data.answers[0].condition, 1);
+    assert_eq!(data.conditions[1].votes, Votes { a: 1, b: 0 });
+    let data = read_texts(&[&format!("{COUNTS}z,x,y,1,2\na,x,y,3,4\n")]).unwrap();
+    assert_eq!(data.conditions[0].id, "z");
+}
+
+#[test]
+fn several_files_are_one_study() {
+    let one = format!("{TRIALS}P1,c,x,y,first,\n");
+    let two = "chosen,participant,condition,first_technique,second_technique\nfirst,P2,c,y,x\n";
+    let data = read_texts(&[&one, two]).unwrap();
+    assert_eq!(data.conditions[0].votes, Votes { a: 1, b: 1 });
+    assert_eq!(data.sources.len(), 2);
+}
+
+#[test]
+fn bad_input_is_named_with_its_place() {
+    let t = |rows: &str| format!("{TRIALS}{rows}");
+    let c = |rows: &str| format!("{COUNTS}{rows}");
+    for (texts, parts) in [
+        (
+            vec![t("P,c,x,y,left,\n")],
+            vec![":2: column `chosen`", "`left`", "`first`", "nothing"],
+        ),
+        (
+            vec![t("P,c,x,y,first,1\nP,c,y,x,first,1\n")],
+            vec![":3:", "participant P", "condition c", "0.csv:2"],
+        ),
+        (
+            vec![t("P,c,x,y,first,\n"), t("P,c,x,y,second,\n")],
+            vec!["1.csv:2:", "0.csv:2"],
+        ),
+        (
+            vec![t("P,c,x,y,first,\nQ,c,x,z,first,\n")],
+            vec![":3:", "x and z", "x and y", "0.csv:2"],
+        ),
+        (
+            vec![t("P,c,x,x,first,\n")],
+            vec![":2:", "both techniques are `x`"],
+        ),
+        (
+            vec![t("P,c,,y,first,\n")],
+            vec![":2:", "first technique is empty"],
+        ),
+        (
+            vec![t("P,c,x,y,first,-1\n")],
+            vec![":2: column `rt_ms`", "-1", "milliseconds"],
+        ),
+        (
+            vec![t("P,c,x,y,first,NaN\n")],
+            vec![":2: column `rt_ms`", "NaN"],
+        ),
+        (
+            vec![t("P,c,x,y,first\n")],
+            vec![":2:", "5 fields", "6 columns"],
+        ),
+        (vec![t("")], vec!["no trial to analyse"]),
+        (vec![c("")], vec!["no trial to analyse"]),
+        (
+            vec![c("c,x,y,-1,2\n")],
+            vec![":2: column `votes_a`", "-1", "0 to 1000000000"],
+        ),
+        (
+            vec![c("c,x,y,1,2.5\n")],
+            vec![":2: column `votes_b`", "2.5"],
+        ),
+        (
+            vec![c("c,x,y,1,4000000000\n")],
+            vec![":2: column `votes_b`", "0 to 1000000000"],
+        ),
+        (
+            vec![c("c,x,y,1,2\nd,x,y,1,2\nc,x,y,1,2\n")],
+            vec![":4:", "condition c", "0.csv:2"],
+        ),
+        (
+            vec![c("c,x,y,1,2\n"), t("P,c,x,y,first,\n")],
+            vec!["1.csv", "cannot be analysed together"],
+        ),
+        (
+            vec!["participant,condition,first_technique,second_technique,choice\n".into()],
+            vec![
+                ":1:",
+                "lacks `chosen`",
+                "found participant,",
+                "choice",
+                "needed",
+            ],
+        ),
+        (
+            vec!["a,b\n1,2\n".into()],
+            vec![":1:", "a,b", "count table", "trial table"],
+        ),
+        (
+            vec!["participant,condition,technique,rank\n".into()],
+            vec!["rank table"],
+        ),
+        (vec![String::new()], vec!["empty"]),
+    ] {
+        let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+        let message = error_of(&texts);
+        for part in parts {
+            assert!(message.contains(part), "{part:?} not in {message:?}");
+        }
+    }
+}
+
+#[test]
+fn a_missing_file_and_an_empty_folder_say_so() {
+    let dir = tempfile::tempdir().unwrap();
+    let message = read(&[dir.path().join("no.csv")], Options::default())
+        .unwrap_err()
+        .to_string();
+    assert!(
+        message.contains("no.csv") && message.contains("cannot be read"),
+        "{message}"
+    );
+    let message = read(&[dir.path().to_owned()], Options::default())
+        .unwrap_err()
+        .to_string();
+    assert!(message.contains("no data"), "{message}");
+}
+
+#[test]
+fn a_column_nobody_reads_is_noted() {
+    let data =
+        read_texts(&["condition,technique_a,technique_b,votes_a,votes_b,asks\nc,x,y,1,2,H1\n"])
+            .unwrap();
+    assert!(
+        data.notes[0].contains("`asks`") && data.notes[0].contains("hypothesis"),
+        "{:?}",
+        data.notes
+    );
+}
+
+proptest! {
+    /// Whatever a file holds, it is either read or refused with a message: no panic.
+    #[test]
+    fn arbitrary_bytes_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..400), header in 0..3_usize) {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("x.csv");
+        let mut content = [TRIALS, COUNTS, ""][header].as_bytes().to_vec();
+        content.extend(bytes);
+        std::fs::write(&path, content).unwrap();
+        if let Err(error) = read(&[path], Options::default()) {
+            prop_assert!(!error.to_string().is_empty());
+        }
+    }
+
+    /// Rows in any order give the same votes as long as the base order is the same.
+    #[test]
+    fn votes_do_not_depend_on_the_order_of_rows(
+        rows in prop::collection::vec((0..4_u8, any::<bool>(), any::<bool>()), 1..40),
+        turn in 0..40_usize,
+    ) {
+        let mut lines: Vec<String> = rows.iter().enumerate().map(|(i, (condition, reversed, first))| {
+            let (one, two) = if *reversed { ("y", "x") } else { ("x", "y") };
+            format!("P{i},c{condition},{one},{two},{},", if *first { "first" } else { "second" })
+        }).collect();
+        let by_technique = |lines: &[String]| {
+            let text = format!("{TRIALS}{}\n", lines.join("\n"));
+            let data = read_texts(&[&text]).unwrap();
+            data.conditions.iter().map(|c| {
+                let votes = if c.technique_a == "x" { (c.votes.a, c.votes.b) } else { (c.votes.b, c.votes.a) };
+                (c.id.clone(), votes)
+            }).collect::<Vec<_>>()
+        };
+        let before = by_technique(&lines);
+        let turn = turn % lines.len();
+        lines.rotate_left(turn);
+        prop_assert_eq!(before, by_technique(&lines));
+    }
+}

@@ -1,0 +1,40 @@
+//! Every statistic, one line each. Tables, files, the methods text and the docs follow this order.
+
+use super::statistic::{About, ConditionStatistic, Correction, StudyStatistic};
+use super::{
+    benjamini_hochberg, chi_square, clopper_pearson, effect_size, exact_binomial, holm, mcnemar,
+    position_bias, wilson,
+};
+
+/// Statistics of one condition.
+pub const CONDITION_STATISTICS: &[ConditionStatistic] = &[
+    wilson::STATISTIC,
+    clopper_pearson::STATISTIC,
+    chi_square::STATISTIC,
+    exact_binomial::STATISTIC,
+    effect_size::STATISTIC,
+    position_bias::BY_CONDITION,
+];
+
+/// Corrections for the family of all conditions, the main one first.
+pub const CORRECTIONS: &[Correction] = &[holm::CORRECTION, benjamini_hochberg::CORRECTION];
+
+/// Statistics of the whole study.
+pub const STUDY_STATISTICS: &[StudyStatistic] = &[position_bias::POOLED, mcnemar::STATISTIC];
+
+/// What each of them is, without repetition.
+#[must_use]
+pub fn abouts() -> Vec<About> {
+    let mut all: Vec<About> = Vec::new();
+    let every = CONDITION_STATISTICS
+        .iter()
+        .map(|statistic| statistic.about)
+        .chain(CORRECTIONS.iter().map(|correction| correction.about))
+        .chain(STUDY_STATISTICS.iter().map(|statistic| statistic.about));
+    for about in every {
+        if !all.contains(&about) {
+            all.push(about);
+        }
+    }
+    all
+}

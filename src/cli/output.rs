@@ -1,0 +1,48 @@
+//! How much a command says, its progress bars, and where its result goes.
+
+use std::io::{self, ErrorKind, Write};
+use std::path::Path;
+
+use anyhow::Context;
+
+use crate::stimulus::files;
+
+/// Writes a result to a file, whole or not at all, or to standard output where none is named.
+///
+/// # Errors
+/// What the disk said, with the file's name. A reader that closes the pipe early is no error.
+pub fn write(file: Option<&Path>, bytes: &[u8]) -> anyhow::Result<()> {
+    if let Some(path) = file {
+        return Ok(files::write_whole(path, bytes)?);
+    }
+    match io::stdout().lock().write_all(bytes) {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        other => other.context("standard output cannot be written"),
+    }
+}
+
+/// How much is said, as the global flags ask.
+#[derive(Debug, Clone, Copy)]
+pub struct Verbosity {
+    /// Only results and errors.
+    pub quiet: bool,
+    /// How often `-v` was given.
+    pub level: u8,
+}
+
+impl Verbosity {
+    /// A progress bar on stderr, hidden if the command is to be quiet or nobody watches.
+    #[must_use]
+    pub fn progress(self, steps: u64) -> indicatif::ProgressBar {
+        if self.quiet {
+            return indicatif::ProgressBar::hidden();
+        }
+        let bar = indicatif::ProgressBar::new(steps);
+        if let Ok(style) =
+            indicatif::ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} ({eta} left)")
+        {
+            bar.set_style(style);
+        }
+        bar
+    }
+}

@@ -1,0 +1,222 @@
+//! `greyfield render`: stimuli from a set config.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::Args;
+
+use super::{Failure, Verbosity};
+use crate::render::plan::{FramePlan, GeometryFacts};
+use crate::render::{Gpu, Precision, Renderer};
+use crate::stimulus::{Manifest, StimulusSet, files, produce, sheet};
+
+/// Draw the images of a stimulus set, with a manifest of where each came from.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example:\n  greyfield render stimuli/thesis-2010.toml\n  greyfield render stimuli/thesis-2010.toml --explain --only dragon-low"
+)]
+pub struct RenderArgs {
+    /// The set: a TOML file with its conditions.
+    set: PathBuf,
+    /// Where to put the images [default: a folder named like the set, beside it].
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Draw one condition only.
+    #[arg(long, value_name = "CONDITION")]
+    only: Option<String>,
+    /// Print which passes each image runs, which it leaves out, and why; draw nothing.
+    #[arg(long)]
+    explain: bool,
+    /// Use the graphics adapter whose name contains this.
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+    /// Store normals and occlusion in 16 bits (full) or in 8 as in 2010 (thesis).
+    #[arg(long, value_enum)]
+    precision: Option<PrecisionArg>,
+    /// Print what each step took.
+    #[arg(long)]
+    timings: bool,
+    /// Also draw every pair, small, on one picture: a row a condition.
+    #[arg(long, value_name = "FILE.png")]
+    sheet: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+enum PrecisionArg {
+    Full,
+    Thesis,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] with exit code 2 for a wrong config, 1 for what fails later.
+pub fn run(args: &RenderArgs, verbosity: Verbosity) -> Result<(), Failure> {
+    let mut set = StimulusSet::load(&args.set).map_err(Failure::bad_input)?;
+    match args.precision {
+        Some(PrecisionArg::Full) => set.precision = Precision::Full,
+        Some(PrecisionArg::Thesis) => set.precision = Precision::Thesis,
+        None => {}
+    }
+    if args.explain {
+        return explain(&set, args.only.as_deref());
+    }
+    let folder = args.out.clone().unwrap_or_else(|| default_folder(&set));
+    let drawn = draw(
+        &set,
+        &folder,
+        args.only.as_deref(),
+        args.adapter.as_deref(),
+        verbosity,
+    )?;
+    if args.timings {
+        println!("{}", drawn.timings);
+    }
+    if let Some(path) = &args.sheet {
+        let sheet = sheet::contact_sheet(&drawn.manifest, &folder)?;
+        files::write_whole(path, &files::encode_png(path, &sheet)?)?;
+    }
+    let pairs = drawn.manifest.pairs.len();
+    println!(
+        "{} images of {pairs} conditions in {}",
+        2 * pairs,
+        folder.display()
+    );
+    Ok(())
+}
+
+/// Where the images of a set lie unless somebody says otherwise.
+#[must_use]
+pub fn default_folder(set: &StimulusSet) -> PathBuf {
+    set.path.with_file_name(&set.id)
+}
+
+/// A drawn set.
+pub struct Drawn {
+    /// Its manifest.
+    pub manifest: Manifest,
+    /// What each step took, a line each.
+    pub timings: String,
+}
+
+/// Opens the adapter and draws the set, with a progress bar.
+///
+/// # Errors
+/// [`Failure`]: exit code 2 for a condition that is not there, 1 for adapter and disk.
+pub fn draw(
+    set: &StimulusSet,
+    folder: &Path,
+    only: Option<&str>,
+    adapter: Option<&str>,
+    verbosity: Verbosity,
+) -> Result<Drawn, Failure> {
+    let mut watch = StopWatch::new();
+    watch.step("opening the adapter");
+    let renderer = Renderer::new(Gpu::open(adapter)?);
+    let steps = set.scenes.len() + 2 * set.conditions.len();
+    let bar = verbosity.progress(steps as u64);
+    let manifest = produce::produce(&renderer, set, folder, only, &mut |what| {
+        watch.step(what);
+        bar.set_message(what.to_owned());
+        bar.inc(1);
+    })
+    .map_err(|error| match error {
+        produce::ProduceError::NoSuchCondition { .. } => Failure::bad_input(error),
+        error => Failure::from(error),
+    })?;
+    bar.finish_and_clear();
+    let adapter = &renderer.gpu().adapter;
+    let timings = format!(
+        "on {} ({}, {})\n{}",
+        adapter.name,
+        adapter.kind,
+        adapter.driver,
+        watch.finish()
+    );
+    Ok(Drawn { manifest, timings })
+}
+
+/// Wall time of one step after another.
+struct StopWatch {
+    started: Instant,
+    current: Option<(String, Instant)>,
+    lines: Vec<String>,
+}
+
+impl StopWatch {
+    fn new() -> Self {
+        Self {
+            started: Instant::now(),
+            current: None,
+            lines: Vec::new(),
+        }
+    }
+
+    /// Ends the step at hand and begins the next.
+    fn step(&mut self, what: &str) {
+        self.end_step();
+        self.current = Some((what.to_owned(), Instant::now()));
+    }
+
+    fn end_step(&mut self) {
+        if let Some((what, since)) = self.current.take() {
+            self.line(&what, since);
+        }
+    }
+
+    fn line(&mut self, what: &str, since: Instant) {
+        self.lines.push(format!(
+            "{what:<44} {:>8.0} ms",
+            since.elapsed().as_secs_f64() * 1e3
+        ));
+    }
+
+    fn finish(mut self) -> String {
+        self.end_step();
+        self.line("all", self.started);
+        self.lines.join("\n")
+    }
+}
+
+fn explain(set: &StimulusSet, only: Option<&str>) -> Result<(), Failure> {
+    let mut found = false;
+    let mut facts: Vec<Option<GeometryFacts>> = vec![None; set.scenes.len()];
+    for condition in set
+        .conditions
+        .iter()
+        .filter(|c| only.is_none_or(|only| c.id == only))
+    {
+        found = true;
+        let scene = &set.scenes[condition.scene];
+        let facts = *facts[condition.scene].get_or_insert_with(|| {
+            let geometry = (scene.generator.generate)(scene.seed);
+            GeometryFacts {
+                triangles: geometry.triangles(),
+                has_normal_maps: geometry.has_normal_maps(),
+            }
+        });
+        println!(
+            "{} — {} ({}), {} lighting",
+            condition.id, scene.title, scene.id, condition.lighting
+        );
+        for technique in [&condition.first, &condition.second] {
+            let plan = FramePlan::new(&set.request(condition, technique), facts);
+            println!(
+                " {} ({} passes; + runs, - is left out)",
+                technique.label,
+                plan.passes.len()
+            );
+            print!("{plan}");
+        }
+        println!();
+    }
+    if found {
+        return Ok(());
+    }
+    let known: Vec<&str> = set.conditions.iter().map(|c| c.id.as_str()).collect();
+    Err(Failure::bad_input(anyhow::anyhow!(
+        "the set has no condition \"{}\"; it has: {}",
+        only.unwrap_or_default(),
+        known.join(", ")
+    )))
+}

@@ -1,0 +1,136 @@
+//! The study that is inside the program, so that it runs anywhere: the configs of the
+//! repository, byte for byte.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Paths and contents of the embedded configs.
+pub const FILES: &[(&str, &str)] = &[
+    (
+        "protocols/thesis-2010.toml",
+        include_str!("../protocols/thesis-2010.toml"),
+    ),
+    (
+        "stimuli/thesis-2010.toml",
+        include_str!("../stimuli/thesis-2010.toml"),
+    ),
+    (
+        "stimuli/scenes/atrium.toml",
+        include_str!("../stimuli/scenes/atrium.toml"),
+    ),
+    (
+        "stimuli/scenes/figurine.toml",
+        include_str!("../stimuli/scenes/figurine.toml"),
+    ),
+    (
+        "stimuli/scenes/figures.toml",
+        include_str!("../stimuli/scenes/figures.toml"),
+    ),
+];
+
+/// The protocol of the embedded study, among [`FILES`].
+pub const PROTOCOL: &str = "protocols/thesis-2010.toml";
+
+/// Its stimulus set, among [`FILES`].
+pub const STIMULI: &str = "stimuli/thesis-2010.toml";
+
+/// Writes the configs under `folder`. A file that is there already stays as it is, because
+/// somebody may have edited it; those that differ from the embedded ones are returned.
+///
+/// # Errors
+/// The file that could not be written or read, and why.
+pub fn unpack(folder: &Path) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
+    let mut kept = Vec::new();
+    for (name, content) in FILES {
+        let path = folder.join(name);
+        let failed = |error| (path.clone(), error);
+        match std::fs::read(&path) {
+            Ok(found) if found == content.as_bytes() => {}
+            Ok(_) => kept.push(path),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                let parent = path.parent().unwrap_or(folder);
+                std::fs::create_dir_all(parent).map_err(failed)?;
+                std::fs::write(&path, content).map_err(failed)?;
+            }
+            Err(error) => return Err((path, error)),
+        }
+    }
+    Ok(kept)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::protocol::Protocol;
+    use crate::stimulus::StimulusSet;
+
+    #[test]
+    fn the_embedded_study_is_whole() {
+        let dir = tempfile::tempdir().unwrap();
+        assert!(unpack(dir.path()).unwrap().is_empty());
+        let set = StimulusSet::load(&dir.path().join(STIMULI)).unwrap();
+        let path = dir.path().join(PROTOCOL);
+        let text = std::fs::read_to_string(&path).unwrap();
+        let protocol = Protocol::parse(&path, &text).unwrap();
+        let named = protocol.stimulus_set(&path);
+        assert_eq!(
+            named.canonicalize().unwrap(),
+            dir.path().join(STIMULI).canonicalize().unwrap()
+        );
+        assert_eq!(set.size_px, (1280, 720));
+    }
+
+    /// The seven conditions, as the thesis' chapter 5.3 and table 4 have them.
+    #[test]
+    fn the_conditions_are_those_of_2010() {
+        let dir = tempfile::tempdir().unwrap();
+        unpack(dir.path()).unwrap();
+        let set = StimulusSet::load(&dir.path().join(STIMULI)).unwrap();
+        let found: Vec<[&str; 5]> = set
+            .conditions
+            .iter()
+            .map(|c| {
+                [
+                    &c.id,
+                    &c.validity,
+                    &c.first.label,
+                    &c.second.label,
+                    &c.hypothesis,
+                ]
+                .map(String::as_str)
+            })
+            .collect();
+        let expected = [
+            ["dragon-low", "low", "crytek24", "blizzard24", "H2"],
+            ["sponza-moderate-h1", "moderate", "none", "blizzard24", "H1"],
+            [
+                "sponza-moderate-h2",
+                "moderate",
+                "crytek24",
+                "blizzard24",
+                "H2",
+            ],
+            [
+                "characters-moderate",
+                "moderate",
+                "blizzard8",
+                "ray-march30",
+                "H2",
+            ],
+            ["sponza-high-h1", "high", "none", "blizzard24", "H1"],
+            ["sponza-high-h2", "high", "crytek24", "blizzard24", "H2"],
+            ["characters-high", "high", "none", "blizzard24", "H1"],
+        ];
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn an_edited_file_stays() {
+        let dir = tempfile::tempdir().unwrap();
+        unpack(dir.path()).unwrap();
+        let path = dir.path().join(STIMULI);
+        std::fs::write(&path, "mine").unwrap();
+        assert_eq!(unpack(dir.path()).unwrap(), [path.clone()]);
+        assert_eq!(std::fs::read_to_string(path).unwrap(), "mine");
+    }
+}

@@ -1,0 +1,3 @@
+fn background_radiance(towards: vec3f) -> vec3f {
+    return light.background.rgb;
+}

@@ -1,0 +1,23 @@
+// Filion & McNaughton 2008; thesis 4.3.2 and appendix B.
+//!use thesis_falloff
+struct Params {
+    samples: f32,
+    radius_m: f32,
+    distance_scale_per_m: f32,
+    near_threshold_m: f32,
+    far_threshold_m: f32,
+    power: f32,
+}
+
+fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
+    let centre_m = view_position(vec2f(pixel) + 0.5, depth_m);
+    let normal = view_normal(pixel);
+    let mirror = noise[tile_index(pixel)].xyz;
+    var sum = 0.0;
+    for (var i = 0u; i < u32(params.samples); i++) {
+        let offset = hemisphere_offset(kernel[i].xyz, mirror, normal);
+        let surface_m = surface_depth_at(centre_m + offset * params.radius_m);
+        sum += openness(max(depth_m - surface_m, 0.0));
+    }
+    return sum / params.samples;
+}

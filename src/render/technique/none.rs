@@ -1,0 +1,20 @@
+//! No occlusion: k_A = 1 everywhere, and no pass runs.
+
+use super::{Inputs, Technique, Weighting};
+
+/// No occlusion.
+pub static NONE: Technique = Technique {
+    name: "none",
+    summary: "no occlusion: the ambient light reaches everything, and no occlusion pass runs",
+    citation: "thesis 5.3 (the control image)",
+    weighting: Weighting::None,
+    inputs: Inputs {
+        depth: false,
+        normals: false,
+    },
+    parameters: &[],
+    samples: None,
+    presets: &[],
+    shader: None,
+    kernel: |_, _| Vec::new(),
+};

@@ -1,0 +1,54 @@
+//! The thesis' own technique: blizzard's offsets, walked in steps.
+
+use super::blizzard::{DISTANCE_SCALE, FAR_THRESHOLD, NEAR_THRESHOLD, POWER, RADIUS};
+use super::{Inputs, Parameter, Preset, Settings, Technique, Weighting, sampling};
+use crate::seed;
+
+/// The ray-marching technique.
+pub static RAY_MARCH: Technique = Technique {
+    name: "ray-march",
+    summary: "as blizzard, but walks along each offset and stops at the first surface in front",
+    citation: "Bavoil & Sainz 2009 (the idea); thesis 4.3.3, appendix C",
+    weighting: Weighting::Empirical,
+    inputs: Inputs {
+        depth: true,
+        normals: true,
+    },
+    parameters: &[
+        Parameter {
+            name: "directions",
+            meaning: "directions a pixel",
+            unit: "",
+            low: 1.0,
+            high: 256.0,
+            default: 30.0,
+            multiple_of: 1.0,
+        },
+        Parameter {
+            name: "steps",
+            meaning: "steps along a direction",
+            unit: "",
+            low: 1.0,
+            high: 64.0,
+            default: 4.0,
+            multiple_of: 1.0,
+        },
+        RADIUS,
+        DISTANCE_SCALE,
+        NEAR_THRESHOLD,
+        FAR_THRESHOLD,
+        POWER,
+    ],
+    samples: Some("directions"),
+    presets: &[Preset {
+        label: "ray-march30",
+        values: &[("directions", 30.0), ("steps", 4.0)],
+    }],
+    shader: Some(include_str!("ray_march.wgsl")),
+    kernel: points,
+};
+
+fn points(settings: &Settings, seed: u64) -> Vec<[f32; 4]> {
+    let mut rng = seed::generator(seed, "ray-march-kernel", 0);
+    sampling::in_sphere(settings.get("directions") as usize, &mut rng)
+}

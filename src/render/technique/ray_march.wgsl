@@ -1,0 +1,31 @@
+// Thesis 4.3.3 and appendix C, after an idea of Bavoil & Sainz 2009: as blizzard, but each
+// offset is walked in equal steps, and the first surface found in front ends the walk.
+//!use thesis_falloff
+struct Params {
+    directions: f32,
+    steps: f32,
+    radius_m: f32,
+    distance_scale_per_m: f32,
+    near_threshold_m: f32,
+    far_threshold_m: f32,
+    power: f32,
+}
+
+fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
+    let centre_m = view_position(vec2f(pixel) + 0.5, depth_m);
+    let normal = view_normal(pixel);
+    let mirror = noise[tile_index(pixel)].xyz;
+    var sum = 0.0;
+    for (var i = 0u; i < u32(params.directions); i++) {
+        let stride = hemisphere_offset(kernel[i].xyz, mirror, normal) * (params.radius_m / params.steps);
+        var delta_m = 0.0;
+        for (var step = 1.0; step <= params.steps; step += 1.0) {
+            delta_m = max(depth_m - surface_depth_at(centre_m + stride * step), 0.0);
+            if delta_m >= params.near_threshold_m {
+                break;
+            }
+        }
+        sum += openness(delta_m);
+    }
+    return sum / params.directions;
+}

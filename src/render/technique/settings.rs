@@ -1,0 +1,178 @@
+//! A technique with a value for each of its parameters.
+
+use std::collections::BTreeMap;
+
+use super::{TECHNIQUES, Technique, find};
+use crate::config::quantity;
+
+/// A technique, fully set.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    /// As it stands in configs, file names and trial rows (`blizzard24`).
+    pub label: String,
+    /// The technique.
+    pub technique: &'static Technique,
+    values: BTreeMap<&'static str, f64>,
+    /// Parameters that the label says, and that a scene's own defaults leave alone.
+    fixed_by_label: Vec<&'static str>,
+}
+
+/// A technique or a value that does not exist or is out of range. `parameter` is what it is
+/// about, if it is about one.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct SettingsError {
+    /// The parameter.
+    pub parameter: Option<String>,
+    /// What was found and what is allowed.
+    pub message: String,
+}
+
+impl Settings {
+    /// Settings of a label: a technique's name (`blizzard`), a preset, or a name followed by
+    /// its number of samples (`blizzard48`).
+    ///
+    /// # Errors
+    /// [`SettingsError`] that lists the techniques, or names the range of the samples.
+    pub fn from_label(label: &str) -> Result<Self, SettingsError> {
+        if let Some(technique) = find(label) {
+            return Ok(Self::defaults(technique, label));
+        }
+        for technique in TECHNIQUES {
+            if let Some(preset) = technique
+                .presets
+                .iter()
+                .find(|preset| preset.label == label)
+            {
+                let mut settings = Self::defaults(technique, label);
+                for (name, value) in preset.values {
+                    settings.set(name, *value)?;
+                    settings.fixed_by_label.push(name);
+                }
+                return Ok(settings);
+            }
+        }
+        let digits = label.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+        let named = find(&label[..digits]).and_then(|t| Some((t, t.samples?)));
+        match (named, label[digits..].parse::<f64>()) {
+            (Some((technique, samples)), Ok(count)) => {
+                let mut settings = Self::defaults(technique, label);
+                settings.set(samples, count)?;
+                settings.fixed_by_label.push(samples);
+                Ok(settings)
+            }
+            _ => Err(unknown(label)),
+        }
+    }
+
+    fn defaults(technique: &'static Technique, label: &str) -> Self {
+        Self {
+            label: label.to_owned(),
+            technique,
+            values: technique
+                .parameters
+                .iter()
+                .map(|p| (p.name, p.default))
+                .collect(),
+            fixed_by_label: Vec::new(),
+        }
+    }
+
+    /// Sets one parameter.
+    ///
+    /// # Errors
+    /// [`SettingsError`] if the technique has no such parameter, or the value is not allowed.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<(), SettingsError> {
+        let error = |message: String| SettingsError {
+            parameter: Some(name.to_owned()),
+            message: format!(
+                "technique `{}`, parameter `{name}`: {message}",
+                self.technique.name
+            ),
+        };
+        let Some(parameter) = self.technique.parameter(name) else {
+            let known: Vec<&str> = self.technique.parameters.iter().map(|p| p.name).collect();
+            return Err(error(format!(
+                "there is no such parameter; there are: {}",
+                if known.is_empty() {
+                    String::from("none")
+                } else {
+                    known.join(", ")
+                }
+            )));
+        };
+        quantity::check(value, parameter.low, parameter.high, parameter.unit).map_err(error)?;
+        if parameter.multiple_of > 0.0 && value % parameter.multiple_of != 0.0 {
+            return Err(error(format!(
+                "found {value}, allowed are multiples of {}",
+                parameter.multiple_of
+            )));
+        }
+        self.values.insert(parameter.name, value);
+        Ok(())
+    }
+
+    /// Sets one parameter to what a scene uses, unless the label says it (`blizzard24` keeps its
+    /// 24 samples everywhere).
+    ///
+    /// # Errors
+    /// As [`set`](Self::set).
+    pub fn set_scene_default(&mut self, name: &str, value: f64) -> Result<(), SettingsError> {
+        let mut probe = self.clone();
+        probe.set(name, value)?;
+        if !self.fixed_by_label.iter().any(|fixed| *fixed == name) {
+            *self = probe;
+        }
+        Ok(())
+    }
+
+    /// The value of a parameter.
+    ///
+    /// # Panics
+    /// If the technique declares no such parameter: only its own file asks.
+    #[must_use]
+    pub fn get(&self, name: &str) -> f64 {
+        self.values[name]
+    }
+
+    /// Every parameter with its value, by name.
+    #[must_use]
+    pub fn values(&self) -> BTreeMap<String, f64> {
+        self.values
+            .iter()
+            .map(|(name, value)| ((*name).to_owned(), *value))
+            .collect()
+    }
+
+    /// The bytes of the WGSL struct `Params`: one f32 a parameter, in the order declared,
+    /// padded to the 16 bytes a uniform buffer needs.
+    #[must_use]
+    pub fn uniform(&self) -> Vec<f32> {
+        let mut numbers: Vec<f32> = self
+            .technique
+            .parameters
+            .iter()
+            .map(|p| self.values[p.name] as f32)
+            .collect();
+        numbers.resize(numbers.len().next_multiple_of(4).max(4), 0.0);
+        numbers
+    }
+}
+
+fn unknown(label: &str) -> SettingsError {
+    let names: Vec<&str> = TECHNIQUES.iter().map(|t| t.name).collect();
+    let presets: Vec<&str> = TECHNIQUES
+        .iter()
+        .flat_map(|t| t.presets)
+        .map(|preset| preset.label)
+        .collect();
+    SettingsError {
+        parameter: None,
+        message: format!(
+            "there is no technique \"{label}\"; there are {} (a number after the name is its samples a pixel, \
+             as in {})",
+            names.join(", "),
+            presets.join(", ")
+        ),
+    }
+}

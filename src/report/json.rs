@@ -1,0 +1,133 @@
+//! The report for machines: every number with full precision, in a fixed order.
+
+use serde::ser::{SerializeMap, SerializeSeq};
+use serde::{Serialize, Serializer};
+
+use super::csv::interval_keys;
+use super::{ReportError, VERSION};
+use crate::analysis::Analysis;
+use crate::analysis::dataset::Source;
+use crate::analysis::registry;
+use crate::analysis::settings::Settings;
+use crate::analysis::statistic::{About, Section};
+use crate::analysis::table::{Cell, Column, Table};
+use crate::analysis::tails::Probability;
+
+/// Version of this layout.
+const SCHEMA_VERSION: u32 = 1;
+
+#[derive(Serialize)]
+struct Report<'a> {
+    schema_version: u32,
+    greyfield_version: &'static str,
+    settings: &'a Settings,
+    conclusion: &'a [String],
+    /// One object a condition.
+    conditions: Rows<'a>,
+    sections: Vec<SectionJson<'a>>,
+    statistics: Vec<About>,
+    inputs: &'a [Source],
+    notes: &'a [String],
+}
+
+#[derive(Serialize)]
+struct SectionJson<'a> {
+    id: &'static str,
+    findings: &'a [String],
+    tables: Tables<'a>,
+}
+
+/// The report, indented.
+pub fn render(analysis: &Analysis) -> Result<String, ReportError> {
+    let report = Report {
+        schema_version: SCHEMA_VERSION,
+        greyfield_version: VERSION,
+        settings: &analysis.settings,
+        conclusion: &analysis.conclusion,
+        conditions: Rows(&analysis.conditions),
+        sections: analysis
+            .sections
+            .iter()
+            .map(|section| SectionJson {
+                id: section.id,
+                findings: &section.findings,
+                tables: Tables(section),
+            })
+            .collect(),
+        statistics: registry::abouts(),
+        inputs: &analysis.data.sources,
+        notes: &analysis.data.notes,
+    };
+    Ok(serde_json::to_string_pretty(&report)? + "\n")
+}
+
+/// Tables of a section by their id.
+struct Tables<'a>(&'a Section);
+
+impl Serialize for Tables<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.tables.len()))?;
+        for part in &self.0.tables {
+            map.serialize_entry(part.id, &Rows(&part.table))?;
+        }
+        map.end()
+    }
+}
+
+/// A table as a list of objects.
+struct Rows<'a>(&'a Table);
+
+impl Serialize for Rows<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut list = serializer.serialize_seq(Some(self.0.rows.len()))?;
+        for cells in &self.0.rows {
+            list.serialize_element(&Row {
+                columns: &self.0.columns,
+                cells,
+            })?;
+        }
+        list.end()
+    }
+}
+
+struct Row<'a> {
+    columns: &'a [Column],
+    cells: &'a [Cell],
+}
+
+impl Serialize for Row<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        for (column, cell) in self.columns.iter().zip(self.cells) {
+            let key = column.key.as_ref();
+            match cell {
+                Cell::Text(text) => map.serialize_entry(key, text)?,
+                Cell::Count(count) => map.serialize_entry(key, count)?,
+                Cell::Number(number) => map.serialize_entry(key, number)?,
+                Cell::Probability(p) => probability(&mut map, key, *p)?,
+                Cell::Interval(ends) => {
+                    let [low, high] = interval_keys(column);
+                    map.serialize_entry(&low, &ends.low)?;
+                    map.serialize_entry(&high, &ends.high)?;
+                }
+                Cell::Undefined(why) => {
+                    if column.is_interval() {
+                        for end in interval_keys(column) {
+                            map.serialize_entry(&end, &None::<f64>)?;
+                        }
+                    } else {
+                        map.serialize_entry(key, &None::<f64>)?;
+                    }
+                    map.serialize_entry(&format!("{key}_status"), why.reason())?;
+                }
+            }
+        }
+        map.end()
+    }
+}
+
+/// The value, and its logarithm to base 10, which is there also where the value is 0 as a double.
+fn probability<M: SerializeMap>(map: &mut M, key: &str, p: Probability) -> Result<(), M::Error> {
+    map.serialize_entry(key, &p.value())?;
+    map.serialize_entry(&format!("{key}_log10"), &p.log10())
+}

@@ -1,0 +1,393 @@
+//! The vaulted walks behind the arches, and the shell of the building round them.
+
+use std::f32::consts::PI;
+
+use glam::{Vec2, Vec3};
+
+use super::arcade::{HALF_WALL_M, Storey};
+use super::materials::Stuff;
+use super::{COURT_DROP_M, HALF_LENGTH_M, HALF_WIDTH_M, Side, WALK_M};
+use crate::scene::modelling::blocks::block;
+use crate::scene::modelling::math::{lerp, rotation};
+use crate::scene::modelling::profile::Pen;
+use crate::scene::modelling::{Frame, MeshBuilder};
+
+/// The walk behind one side.
+pub(super) fn build(stuff: &mut Stuff, side: &Side, storey: &Storey) {
+    let depth = WALK_M - HALF_WALL_M;
+    for bay in 0..side.bays {
+        let middle = Vec3::new(
+            (bay as f32 + 0.5) * side.bay_m,
+            storey.springing_m,
+            -HALF_WALL_M - 0.5 * depth,
+        );
+        let frame = Frame {
+            origin_m: side.frame.point(middle),
+            axes: side.frame.axes,
+        };
+        vault(
+            &mut stuff.plaster,
+            &frame,
+            0.5 * side.bay_m,
+            0.5 * depth,
+            rise_m(storey),
+        );
+        back_wall(stuff, side, storey, bay);
+    }
+    for i in 0..=side.bays {
+        rib(stuff, side, storey, i as f32 * side.bay_m);
+    }
+}
+
+fn rise_m(storey: &Storey) -> f32 {
+    storey.top_m - storey.springing_m - 0.25
+}
+
+/// A groin vault over a rectangle `2 half_x × 2 half_z`, springing at the frame's
+/// origin: two crossing half-elliptic barrels, seen from below.
+fn vault(plaster: &mut MeshBuilder, frame: &Frame, half_x: f32, half_z: f32, rise: f32) {
+    // Four webs; in each the barrel's axis points from the middle to its own side.
+    for quarter in 0..4 {
+        let turned = quarter % 2 == 1;
+        let (along, across) = if turned {
+            (half_z, half_x)
+        } else {
+            (half_x, half_z)
+        };
+        let web = Frame {
+            origin_m: frame.origin_m,
+            axes: frame.axes * rotation(Vec3::Y, 0.5 * PI * quarter as f32),
+        };
+        plaster.sheet_with_normals(16, 8, |s, t| {
+            let k = 2.0 * s - 1.0;
+            let up = (1.0 - k * k).max(0.0).sqrt();
+            // Outwards to inwards, so that the sheet faces down.
+            let x = lerp(1.0, k.abs(), t) * along;
+            let p = Vec3::new(x, rise * up, k * across);
+            let normal = Vec3::new(0.0, -up / rise, -k / across);
+            (
+                web.point(p),
+                web.direction(normal),
+                Vec2::new(x, libm::asinf(k) * across),
+            )
+        });
+    }
+}
+
+/// The arch across the walk between two bays, from column to wall.
+fn rib(stuff: &mut Stuff, side: &Side, storey: &Storey, x: f32) {
+    let depth = WALK_M - HALF_WALL_M;
+    let (half_depth, rise) = (0.5 * depth, rise_m(storey));
+    let origin = Vec3::new(x, storey.springing_m, -HALF_WALL_M - half_depth);
+    let frame = Frame {
+        origin_m: side.frame.point(origin),
+        axes: side.frame.axes,
+    };
+    let outline = [
+        (-0.22, 0.0),
+        (-0.22, 0.1),
+        (-0.15, 0.14),
+        (0.15, 0.14),
+        (0.22, 0.1),
+        (0.22, 0.0),
+    ];
+    for pair in outline.windows(2) {
+        let [(x0, d0), (x1, d1)] = [pair[0], pair[1]];
+        stuff.carved.sheet(24, 1, |s, t| {
+            let c = crate::scene::modelling::math::on_circle(PI * s);
+            let shrink = 1.0 - lerp(d0, d1, t) / half_depth;
+            let p = Vec3::new(
+                lerp(x0, x1, t),
+                c.y * rise * shrink,
+                c.x * half_depth * shrink,
+            );
+            (
+                frame.point(p),
+                Vec2::new(lerp(x0, x1, t), s * PI * half_depth),
+            )
+        });
+    }
+    pilaster(stuff, side, storey, x);
+}
+
+/// A flat column on the back wall under each rib.
+fn pilaster(stuff: &mut Stuff, side: &Side, storey: &Storey, x: f32) {
+    let (bottom, top) = (storey.floor_m, storey.springing_m);
+    let mut slab = |y0: f32, y1: f32, half: f32, out: f32| {
+        let low = Vec3::new(x - half, y0, -WALK_M - 0.05);
+        block(
+            &mut stuff.carved,
+            &side.frame,
+            low,
+            Vec3::new(x + half, y1, -WALK_M + out),
+            0.012,
+        );
+    };
+    slab(bottom, bottom + 0.28, 0.31, 0.2);
+    slab(bottom + 0.28, bottom + 0.38, 0.28, 0.17);
+    slab(bottom + 0.38, top - 0.4, 0.24, 0.13);
+    slab(top - 0.4, top - 0.34, 0.27, 0.16);
+    slab(top - 0.34, top - 0.12, 0.25, 0.14);
+    slab(top - 0.12, top, 0.33, 0.22);
+}
+
+/// Back wall of one bay: a wainscot of ashlar, plaster above, every other bay a door.
+fn back_wall(stuff: &mut Stuff, side: &Side, storey: &Storey, bay: u32) {
+    let (x0, x1) = (bay as f32 * side.bay_m, (bay + 1) as f32 * side.bay_m);
+    let z = -WALK_M;
+    let dado = storey.floor_m + 1.1;
+    let wall = |builder: &mut MeshBuilder, y0: f32, y1: f32, z: f32| {
+        builder.quad([
+            side.frame.point(Vec3::new(x0, y0, z)),
+            side.frame.point(Vec3::new(x1, y0, z)),
+            side.frame.point(Vec3::new(x1, y1, z)),
+            side.frame.point(Vec3::new(x0, y1, z)),
+        ]);
+    };
+    wall(&mut stuff.ashlar, storey.floor_m, dado, z + 0.05);
+    wall(&mut stuff.plaster, dado, storey.top_m + 0.3, z);
+    let rail = Pen::at(0.0, dado - 0.08)
+        .by(0.02, 0.0)
+        .bulge(0.06, 0.025)
+        .by(0.02, 0.01)
+        .by(0.0, 0.04)
+        .to(-0.06, dado + 0.05)
+        .profile();
+    let ends = [x0, x1].map(|x| side.frame.point(Vec3::new(x, 0.0, z + 0.05)));
+    rail.run(&mut stuff.carved, &ends, false);
+    if (bay + u32::from(storey.upper)) % 2 == 0 {
+        door(stuff, side, storey, 0.5 * (x0 + x1));
+    } else {
+        window(stuff, side, storey, 0.5 * (x0 + x1));
+    }
+}
+
+/// A panelled double door in a stone frame.
+fn door(stuff: &mut Stuff, side: &Side, storey: &Storey, x: f32) {
+    let (y, z) = (storey.floor_m, -WALK_M);
+    let (half, height) = (0.75, 2.6);
+    let frame = &side.frame;
+    let mut stone = |x0: f32, y0: f32, x1: f32, y1: f32, out: f32| {
+        let low = Vec3::new(x + x0, y + y0, z - 0.1);
+        block(
+            &mut stuff.carved,
+            frame,
+            low,
+            Vec3::new(x + x1, y + y1, z + out),
+            0.015,
+        );
+    };
+    stone(-half - 0.24, 0.0, -half, height, 0.16);
+    stone(half, 0.0, half + 0.24, height, 0.16);
+    stone(-half - 0.24, height, half + 0.24, height + 0.26, 0.16);
+    stone(
+        -half - 0.36,
+        height + 0.26,
+        half + 0.36,
+        height + 0.36,
+        0.28,
+    );
+    for leaf in [-1.0, 1.0] {
+        let (a, b) = if leaf < 0.0 {
+            (-half, -0.008)
+        } else {
+            (0.008, half)
+        };
+        let mut board = |x0: f32, y0: f32, x1: f32, y1: f32, out: f32| {
+            let low = Vec3::new(x + x0, y + y0, z);
+            block(
+                &mut stuff.wood,
+                frame,
+                low,
+                Vec3::new(x + x1, y + y1, z + out),
+                0.012,
+            );
+        };
+        board(a, 0.0, b, height, 0.07);
+        for (low, high) in [(0.12, 0.75), (0.87, 1.6), (1.72, height - 0.12)] {
+            board(a + 0.1, low, b - 0.1, high, 0.1);
+            board(a + 0.16, low + 0.06, b - 0.16, high - 0.06, 0.115);
+        }
+        let ring = frame.point(Vec3::new(x + leaf * 0.09, y + 1.2, z + 0.11));
+        Pen::at(0.0, 0.0)
+            .to(0.045, 0.0)
+            .ovolo(-0.045, 0.03)
+            .profile()
+            .lathe(
+                &mut stuff.metal,
+                &Frame::along(ring, frame.axes.z_axis, Vec3::Y),
+                16,
+            );
+    }
+}
+
+/// A blind window: moulded frame, sill on brackets, shutters.
+fn window(stuff: &mut Stuff, side: &Side, storey: &Storey, x: f32) {
+    let (y, z) = (storey.floor_m + 1.5, -WALK_M);
+    let (half, height) = (0.5, 1.5);
+    let frame = &side.frame;
+    let mut stone = |x0: f32, y0: f32, x1: f32, y1: f32, out: f32| {
+        let low = Vec3::new(x + x0, y + y0, z - 0.1);
+        block(
+            &mut stuff.carved,
+            frame,
+            low,
+            Vec3::new(x + x1, y + y1, z + out),
+            0.012,
+        );
+    };
+    stone(-half - 0.18, 0.0, -half, height, 0.12);
+    stone(half, 0.0, half + 0.18, height, 0.12);
+    stone(-half - 0.18, height, half + 0.18, height + 0.2, 0.12);
+    stone(-half - 0.26, height + 0.2, half + 0.26, height + 0.29, 0.22);
+    stone(-half - 0.28, -0.12, half + 0.28, 0.0, 0.24);
+    stone(-half - 0.12, -0.34, -half + 0.04, -0.12, 0.16);
+    stone(half - 0.04, -0.34, half + 0.12, -0.12, 0.16);
+    for slat in 0..15 {
+        let y0 = y + 0.05 + slat as f32 * 0.095;
+        for (a, b) in [(-half, -0.01), (0.01, half)] {
+            let turn = Frame {
+                origin_m: frame.point(Vec3::new(x, y0, z + 0.03)),
+                axes: frame.axes * rotation(Vec3::X, 0.5),
+            };
+            let low = Vec3::new(a + 0.06, 0.0, 0.0);
+            block(
+                &mut stuff.wood,
+                &turn,
+                low,
+                Vec3::new(b - 0.06, 0.09, 0.014),
+                0.004,
+            );
+        }
+    }
+    let mut stile = |a: f32, b: f32| {
+        let low = Vec3::new(x + a, y, z);
+        block(
+            &mut stuff.wood,
+            frame,
+            low,
+            Vec3::new(x + b, y + height, z + 0.075),
+            0.008,
+        );
+    };
+    for (a, b) in [
+        (-half, -half + 0.06),
+        (-0.07, -0.01),
+        (0.01, 0.07),
+        (half - 0.06, half),
+    ] {
+        stile(a, b);
+    }
+    block(
+        &mut stuff.wood,
+        frame,
+        Vec3::new(x - half, y, z - 0.02),
+        Vec3::new(x + half, y + height, z + 0.01),
+        0.002,
+    );
+}
+
+/// Vaults over the four corners of the walks.
+pub(super) fn corners(stuff: &mut Stuff, storey: &Storey) {
+    let half = 0.5 * (WALK_M - HALF_WALL_M);
+    let reach = HALF_WALL_M + half;
+    for (sx, sz) in [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)] {
+        let middle = Vec3::new(
+            sx * (HALF_LENGTH_M + reach),
+            storey.springing_m,
+            sz * (HALF_WIDTH_M + reach),
+        );
+        vault(
+            &mut stuff.plaster,
+            &Frame::at(middle),
+            half + HALF_WALL_M,
+            half + HALF_WALL_M,
+            rise_m(storey),
+        );
+        // The two outer walls of the corner.
+        let (x0, x1) = (sx * HALF_LENGTH_M, sx * (HALF_LENGTH_M + WALK_M));
+        let (z0, z1) = (sz * HALF_WIDTH_M, sz * (HALF_WIDTH_M + WALK_M));
+        let (y0, y1) = (storey.floor_m, storey.top_m + 0.3);
+        let mut wall = |a: Vec2, b: Vec2| {
+            stuff.plaster.quad([
+                Vec3::new(a.x, y0, a.y),
+                Vec3::new(b.x, y0, b.y),
+                Vec3::new(b.x, y1, b.y),
+                Vec3::new(a.x, y1, a.y),
+            ]);
+        };
+        // Ordered so that each faces the corner's middle.
+        let (along_x, along_z) = (
+            [Vec2::new(x0, z1), Vec2::new(x1, z1)],
+            [Vec2::new(x1, z1), Vec2::new(x1, z0)],
+        );
+        if sx * sz < 0.0 {
+            wall(along_x[0], along_x[1]);
+            wall(along_z[0], along_z[1]);
+        } else {
+            wall(along_x[1], along_x[0]);
+            wall(along_z[1], along_z[0]);
+        }
+    }
+}
+
+/// Floors, roofs, parapet and the outside of the walls.
+pub(super) fn shell(stuff: &mut Stuff) {
+    let (l, w) = (HALF_LENGTH_M, HALF_WIDTH_M);
+    let (outer_x, outer_z) = (l + WALK_M, w + WALK_M);
+    let level = |builder: &mut MeshBuilder, y: f32, x: [f32; 2], z: [f32; 2], up: bool| {
+        let p = |x: f32, z: f32| Vec3::new(x, y, z);
+        let corners = [p(x[0], z[1]), p(x[1], z[1]), p(x[1], z[0]), p(x[0], z[0])];
+        if up {
+            builder.quad(corners);
+        } else {
+            let [a, b, c, d] = corners;
+            builder.quad([d, c, b, a]);
+        }
+    };
+    level(&mut stuff.floor, -COURT_DROP_M, [-l, l], [-w, w], true);
+    for (y, inset) in [(0.0, 0.45), (6.7, HALF_WALL_M + 0.05), (13.37, HALF_WALL_M)] {
+        let (ix, iz) = (l - inset, w - inset);
+        let target = if y > 10.0 {
+            &mut stuff.terracotta
+        } else {
+            &mut stuff.floor
+        };
+        level(target, y, [-outer_x, outer_x], [iz, outer_z], true);
+        level(target, y, [-outer_x, outer_x], [-outer_z, -iz], true);
+        level(target, y, [ix, outer_x], [-iz, iz], true);
+        level(target, y, [-outer_x, -ix], [-iz, iz], true);
+    }
+    parapet(stuff);
+    // The outside, so that no light comes through the walls.
+    for (a, b) in [
+        ([-outer_x, -outer_z], [-outer_x, outer_z]),
+        ([-outer_x, outer_z], [outer_x, outer_z]),
+        ([outer_x, outer_z], [outer_x, -outer_z]),
+        ([outer_x, -outer_z], [-outer_x, -outer_z]),
+    ] {
+        let p = |c: [f32; 2], y: f32| Vec3::new(c[0] * 1.02, y, c[1] * 1.02);
+        stuff
+            .brick
+            .quad([p(a, -0.3), p(b, -0.3), p(b, 13.4), p(a, 13.4)]);
+    }
+}
+
+/// A low brick wall above the cornice, with a stone coping.
+fn parapet(stuff: &mut Stuff) {
+    let (x, z) = (
+        HALF_LENGTH_M - HALF_WALL_M + 0.25,
+        HALF_WIDTH_M - HALF_WALL_M + 0.25,
+    );
+    // Clockwise from above, so that the outside of the run is the court.
+    let path = [[-x, -z], [x, -z], [x, z], [-x, z]].map(|[x, z]| Vec3::new(x, 0.0, z));
+    let wall = Pen::at(0.0, 13.2).by(0.0, 0.95).profile();
+    wall.run(&mut stuff.brick, &path, true);
+    let coping = Pen::at(0.0, 14.1)
+        .by(0.08, 0.0)
+        .by(0.0, 0.08)
+        .ovolo(0.02, 0.04)
+        .by(-0.5, 0.1)
+        .profile();
+    coping.run(&mut stuff.carved, &path, true);
+}
