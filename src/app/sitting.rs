@@ -115,7 +115,8 @@ impl Sitting {
             self.give(given, received);
         }
         if self.session.screen_serial() != serial {
-            ctx.request_repaint();
+            // At once, and once: without a delay egui would draw it twice.
+            ctx.request_repaint_after(Duration::from_nanos(1));
         }
     }
 
