@@ -401,6 +401,11 @@ fn the_abort_chord_must_be_held() {
         modifiers: chord,
     });
     desk.frame();
+    let commands = &desk.harness.output().viewport_output[&egui::ViewportId::ROOT].commands;
+    assert!(
+        !commands.contains(&egui::ViewportCommand::Close),
+        "the chord must not close the window"
+    );
     desk.pass_time(SECOND_NS - 1);
     desk.frame();
     assert!(matches!(desk.screen(), Screen::Image { .. }), "not yet");

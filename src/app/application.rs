@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use eframe::egui::{Context, Ui, ViewportCommand};
 use time::OffsetDateTime;
@@ -23,6 +23,10 @@ use crate::protocol::Protocol;
 use crate::record::{Enrolment, InputDevice, OnsetMethod, ParticipantId, Study};
 use crate::session::start::{self, Setting};
 use crate::stimulus::Manifest;
+
+/// How long the window system has to cover the screen. Nobody reads instructions
+/// faster, so no image is on screen yet.
+const FULL_SCREEN_PATIENCE: Duration = Duration::from_millis(700);
 
 /// A study, ready to run.
 #[derive(Debug)]
@@ -56,6 +60,8 @@ pub struct Application {
     participants: Result<Vec<String>, String>,
     enrolling: Enrolling,
     sitting: Option<Box<Sitting>>,
+    /// Since when the session should cover the screen; `None` once that is settled.
+    covering_since: Option<Instant>,
     first_frame_seen: bool,
     /// Frames handed to the display so far.
     frames: u64,
@@ -78,6 +84,7 @@ impl Application {
             participants: Ok(Vec::new()),
             enrolling: Enrolling::default(),
             sitting: None,
+            covering_since: None,
             first_frame_seen: false,
             frames: 0,
             make_clock: Box::new(Clock::start),
@@ -163,6 +170,7 @@ impl Application {
                 self.enrolling = Enrolling::default();
                 if !self.setup.windowed {
                     ctx.send_viewport_cmd(ViewportCommand::Fullscreen(true));
+                    self.covering_since = Some(Instant::now());
                 }
             }
             Err(message) => {
@@ -171,6 +179,29 @@ impl Application {
             }
         }
         ctx.request_repaint();
+    }
+
+    /// Makes the window as large as the monitor where asking for the full screen
+    /// was not enough: without a window manager nobody else does it.
+    fn cover_screen(&mut self, ctx: &Context) {
+        let Some(since) = self.covering_since else {
+            return;
+        };
+        let found = DisplayFacts::read(ctx, self.window.as_deref());
+        let Some(monitor_px) = found.monitor_px else {
+            self.covering_since = None;
+            return;
+        };
+        if let Some(left) = FULL_SCREEN_PATIENCE.checked_sub(since.elapsed()) {
+            ctx.request_repaint_after(left);
+            return;
+        }
+        self.covering_since = None;
+        if found.window_px != monitor_px {
+            tracing::warn!(?found, "the full screen was refused; enlarging the window");
+            let points = monitor_px.map(|px| px as f32 / found.scale_factor);
+            ctx.send_viewport_cmd(ViewportCommand::InnerSize(points.into()));
+        }
     }
 
     fn sit_down(&self, request: &Request, display: &DisplayFacts) -> Result<Sitting, String> {
@@ -227,6 +258,7 @@ impl Application {
             return;
         }
         self.sitting = None;
+        self.covering_since = None;
         self.count_participants();
         // An image may have changed meanwhile.
         self.stimuli = StimuliCheck::Waiting;
@@ -261,6 +293,7 @@ fn image_px(manifest: &Manifest) -> SizePx {
 impl Content for Application {
     fn ui(&mut self, ui: &mut Ui) {
         self.refuse_to_close(ui.ctx());
+        self.cover_screen(ui.ctx());
         match &mut self.sitting {
             Some(sitting) => sitting.ui(ui),
             None => self.start_page(ui),

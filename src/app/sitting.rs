@@ -191,7 +191,7 @@ impl Sitting {
                 && input.modifiers.shift
                 && key.is_some_and(|key| input.key_down(key))
         });
-        if !held {
+        if !held || self.session.is_over() {
             self.chord_since = None;
             return;
         }

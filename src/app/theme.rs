@@ -20,6 +20,8 @@ pub fn install(ctx: &egui::Context) {
     ctx.options_mut(|options| {
         // A zoom step would move the page under the participant's hand.
         options.zoom_with_keyboard = false;
+        // egui closes the window at Ctrl+Q, which is half of the abort chord.
+        options.quit_shortcuts.clear();
     });
     ctx.all_styles_mut(|style| {
         style.visuals = visuals();
