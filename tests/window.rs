@@ -310,3 +310,36 @@ fn without_a_display_the_error_names_the_way_out() {
         assert!(message.contains("--headless"), "{message}");
     }
 }
+
+#[test]
+fn without_a_vulkan_driver_the_error_names_the_package() {
+    if let Some(missing) = xvfb::missing() {
+        eprintln!("skipped: a window without a Vulkan driver ({missing})");
+        return;
+    }
+    let study = Tiny::new(1, SIZE_PX);
+    let x = Xvfb::start(1400, 1000);
+    let output = Command::new(env!("CARGO_BIN_EXE_greyfield"))
+        .args([
+            "run",
+            "tiny.toml",
+            "--results",
+            "results",
+            "--stimuli",
+            "stimuli",
+        ])
+        .current_dir(study.folder.path())
+        .env("DISPLAY", &x.display)
+        .env("XDG_RUNTIME_DIR", study.folder.path())
+        // Where the Vulkan loader looks for drivers, under its old and new name.
+        .env("VK_ICD_FILENAMES", "/nowhere.json")
+        .env("VK_DRIVER_FILES", "/nowhere.json")
+        .env_remove("WAYLAND_DISPLAY")
+        .env_remove("WAYLAND_SOCKET")
+        .output()
+        .expect("the application runs");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains("no graphics adapter"), "{message}");
+    assert!(message.contains("mesa-vulkan-drivers"), "{message}");
+}

@@ -222,6 +222,9 @@ fn surface_status(
 /// Takes the first adapter that can draw to the window, real ones before software.
 fn setup(failure: Arc<Mutex<Option<String>>>) -> WgpuSetup {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
+    // The ones the pixels were tested on, whatever else the build brings along.
+    setup.instance_descriptor.backends =
+        wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12;
     setup.native_adapter_selector = Some(Arc::new(move |adapters, surface| {
         let able = |adapter: &&wgpu::Adapter| {
             surface.is_none_or(|surface| adapter.is_surface_supported(surface))
@@ -235,6 +238,9 @@ fn setup(failure: Arc<Mutex<Option<String>>>) -> WgpuSetup {
                 wgpu::DeviceType::Cpu => 4,
             }
         });
+        if let Some(adapter) = chosen {
+            tracing::debug!(adapter = ?adapter.get_info(), "adapter chosen");
+        }
         chosen.cloned().ok_or_else(|| {
             let names: Vec<String> = adapters.iter().map(|a| a.get_info().name).collect();
             let detail = if names.is_empty() {
