@@ -1,6 +1,7 @@
 //! The command line: one file a subcommand, no logic of its own.
 
 mod analyse;
+mod logging;
 mod order;
 mod output;
 mod render;
@@ -79,6 +80,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         quiet: cli.quiet,
         level: cli.verbose,
     };
+    logging::init(verbosity);
     match cli.command {
         Command::Render(args) => render::run(&args, verbosity),
         Command::Run(args) => run::run(&args, verbosity),
