@@ -16,9 +16,8 @@ use crate::stimulus::set::SetCondition;
 /// Columns: participant (the slot, from 0), position (from 0), condition, and the
 /// two techniques in the order shown. The same protocol and seed give the same plan
 /// on any machine.
-///
-/// Example: greyfield order protocols/thesis-2010.toml --participants 36
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  greyfield order protocols/thesis-2010.toml --participants 36")]
 pub struct Order {
     /// The protocol.
     #[arg(value_name = "PROTOCOL.toml")]

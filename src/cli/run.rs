@@ -15,15 +15,16 @@ use crate::record::RecordError;
 use crate::session::headless::{Headless, HeadlessError, Progress, Summary};
 use crate::session::observer::Scripted;
 use crate::session::start;
-use crate::stimulus::Manifest;
+use crate::stimulus::{Manifest, StimulusSet};
 
 /// Run participant sessions, in a window or with scripted observers.
 ///
 /// Every answer is on disk before the next screen is shown. A session that was
 /// interrupted goes on where it stopped: run the same command again.
-///
-/// Example: greyfield run protocols/thesis-2010.toml --results results/thesis --headless --observer random:1 --participants 28
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Example:\n  greyfield run protocols/thesis-2010.toml --results results/thesis --headless --observer random:1 --participants 28"
+)]
 pub struct Run {
     /// The protocol.
     #[arg(value_name = "PROTOCOL.toml")]
@@ -75,6 +76,7 @@ pub struct Prepared {
     /// What was rendered.
     pub manifest: Manifest,
     /// Where the images are.
+    #[allow(dead_code)] // the window loads them from here
     pub stimuli: PathBuf,
 }
 
@@ -98,17 +100,13 @@ pub fn run(args: &Run, verbosity: Verbosity) -> Result<(), Failure> {
 pub fn prepare(protocol_path: &Path, stimuli: Option<&Path>) -> Result<Prepared, Failure> {
     let protocol_text = config::read(protocol_path).map_err(Failure::bad_input)?;
     let protocol = Protocol::parse(protocol_path, &protocol_text).map_err(Failure::bad_input)?;
-    let set = protocol.stimulus_set(protocol_path);
-    let stimuli = stimuli.map_or_else(|| set.with_extension(""), Path::to_owned);
-    if !stimuli.join(crate::stimulus::manifest::FILE_NAME).exists() {
-        return Err(Failure::bad_input(anyhow!(
-            "{}: no rendered stimuli here; make them with `greyfield render {} --out {}`, or name their folder with --stimuli",
-            stimuli.display(),
-            set.display(),
-            stimuli.display()
-        )));
-    }
-    let manifest = Manifest::load(&stimuli).map_err(Failure::bad_input)?;
+    let (manifest, stimuli) = match stimuli {
+        Some(folder) => (
+            load(folder, &protocol.stimulus_set(protocol_path))?,
+            folder.to_owned(),
+        ),
+        None => rendered(&protocol.stimulus_set(protocol_path))?,
+    };
     manifest.verify(&stimuli).map_err(Failure::bad_input)?;
     Ok(Prepared {
         protocol,
@@ -116,6 +114,43 @@ pub fn prepare(protocol_path: &Path, stimuli: Option<&Path>) -> Result<Prepared,
         manifest,
         stimuli,
     })
+}
+
+/// The images of a set where `greyfield render` puts them, drawn from the set as it is now.
+fn rendered(set_path: &Path) -> Result<(Manifest, PathBuf), Failure> {
+    let set = StimulusSet::load(set_path).map_err(Failure::bad_input)?;
+    let folder = super::render::default_folder(&set);
+    let manifest = load(&folder, set_path)?;
+    let drawn: Vec<&str> = manifest
+        .pairs
+        .iter()
+        .map(|pair| pair.condition.as_str())
+        .collect();
+    let wanted: Vec<&str> = set
+        .conditions
+        .iter()
+        .map(|condition| condition.id.as_str())
+        .collect();
+    if manifest.config_sha256 != set.sha256 || drawn != wanted {
+        return Err(Failure::bad_input(anyhow!(
+            "{}: these images were drawn from another state of the set or are not all of it; draw it again with `greyfield render {}`, or name the images' folder with --stimuli",
+            folder.display(),
+            set_path.display()
+        )));
+    }
+    Ok((manifest, folder))
+}
+
+fn load(folder: &Path, set_path: &Path) -> Result<Manifest, Failure> {
+    if folder.join(crate::stimulus::manifest::FILE_NAME).exists() {
+        return Manifest::load(folder).map_err(Failure::bad_input);
+    }
+    Err(Failure::bad_input(anyhow!(
+        "{}: no rendered stimuli here; draw them with `greyfield render {} --out {}`, or name their folder with --stimuli",
+        folder.display(),
+        set_path.display(),
+        folder.display()
+    )))
 }
 
 fn headless(args: &Run, prepared: &Prepared, verbosity: Verbosity) -> Result<(), Failure> {
@@ -142,20 +177,25 @@ fn headless(args: &Run, prepared: &Prepared, verbosity: Verbosity) -> Result<(),
         scripted: &scripted,
         station: &args.station,
     };
-    let mut output = io::stdout().lock();
+    let mut stdout = io::stdout().lock();
     let mut told = Ok(());
+    let bar = verbosity.progress(participants.into());
     let summary = headless
         .run(participants, OffsetDateTime::now_utc, |progress| {
+            if let Progress::Finished(_) = progress {
+                bar.inc(1);
+            }
             if told.is_ok() {
-                told = tell(&mut output, &progress, args.format, verbosity);
+                told = tell(&mut stdout, &progress, args.format, verbosity);
             }
         })
         .map_err(failure_of_run)?;
+    bar.finish_and_clear();
     told?;
     for warning in &summary.warnings {
         eprintln!("warning: {warning}");
     }
-    summarise(&mut output, &summary, args.format, verbosity)?;
+    summarise(&mut stdout, &summary, args.format, verbosity)?;
     Ok(())
 }
 
@@ -176,64 +216,64 @@ pub(super) fn failure_of_run(error: HeadlessError) -> Failure {
 }
 
 fn tell(
-    output: &mut impl Write,
+    stdout: &mut impl Write,
     progress: &Progress,
     format: Format,
     verbosity: Verbosity,
 ) -> io::Result<()> {
     match (format, progress) {
         (Format::Json, Progress::Started(enrolment)) => writeln!(
-            output,
+            stdout,
             "{}",
             json!({"event": "started", "participant": enrolment.participant.as_str(), "slot": enrolment.slot, "segment": enrolment.segment, "answered": enrolment.rows.len()})
         ),
         (Format::Json, Progress::Stored { row_id, path }) => writeln!(
-            output,
+            stdout,
             "{}",
             json!({"event": "stored", "row_id": row_id, "file": path})
         ),
         (Format::Json, Progress::Finished(participant)) => writeln!(
-            output,
+            stdout,
             "{}",
             json!({"event": "finished", "participant": participant.as_str()})
         ),
         (Format::Text, Progress::Stored { row_id, .. }) if verbosity.level >= 2 => {
-            writeln!(output, "stored {row_id}")
+            writeln!(stdout, "stored {row_id}")
         }
         (Format::Text, Progress::Finished(participant)) if verbosity.level >= 1 => {
-            writeln!(output, "finished {participant}")
+            writeln!(stdout, "finished {participant}")
         }
         (Format::Text, _) => Ok(()),
     }
 }
 
 fn summarise(
-    output: &mut impl Write,
+    stdout: &mut impl Write,
     summary: &Summary,
     format: Format,
     verbosity: Verbosity,
 ) -> io::Result<()> {
     match format {
         Format::Json => writeln!(
-            output,
+            stdout,
             "{}",
             json!({"event": "done", "finished": summary.finished, "resumed": summary.resumed, "already_finished": summary.already_finished, "rows": summary.rows, "data": summary.data})
         ),
         Format::Text if verbosity.quiet => Ok(()),
         Format::Text => {
             write!(
-                output,
+                stdout,
                 "{} sessions finished",
                 summary.finished + summary.resumed
             )?;
             if summary.resumed > 0 {
-                write!(output, " ({} of them resumed)", summary.resumed)?;
+                write!(stdout, " ({} of them resumed)", summary.resumed)?;
             }
             if summary.already_finished > 0 {
-                write!(output, ", {} were already", summary.already_finished)?;
+                write!(stdout, ", {} were already", summary.already_finished)?;
             }
             let (rows, data) = (summary.rows, summary.data.display());
-            writeln!(output, "; {rows} rows written to {data}")
+            writeln!(stdout, "; {rows} rows written to {data}")
         }
     }
 }

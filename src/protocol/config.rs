@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::Key;
 use super::design::Design;
 use super::procedure::Procedure;
+use super::text::{StudyId, Text};
 use crate::config::quantity::{Milliseconds, SrgbLevel, quantity};
 use crate::config::{self, ConfigError};
 use crate::digest;
@@ -205,73 +206,6 @@ impl Protocol {
     }
 }
 
-/// A sentence; never empty.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-pub struct Text(String);
-
-impl TryFrom<String> for Text {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, String> {
-        if text.trim().is_empty() {
-            return Err("found an empty text, something to read is needed".to_owned());
-        }
-        Ok(Self(text.trim().to_owned()))
-    }
-}
-
-impl From<Text> for String {
-    fn from(text: Text) -> Self {
-        text.0
-    }
-}
-
-impl std::ops::Deref for Text {
-    type Target = str;
-
-    fn deref(&self) -> &str {
-        &self.0
-    }
-}
-
-/// A short name for files and columns: starts with a letter, then letters,
-/// digits, `-` and `_`, 64 at most.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-pub struct StudyId(String);
-
-impl TryFrom<String> for StudyId {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, String> {
-        let allowed = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-        if text.starts_with(|c: char| c.is_ascii_alphabetic())
-            && text.chars().all(allowed)
-            && text.len() <= 64
-        {
-            return Ok(Self(text));
-        }
-        Err(format!(
-            "found {text:?}, allowed is a letter, then letters, digits, - and _, 64 at most"
-        ))
-    }
-}
-
-impl From<StudyId> for String {
-    fn from(id: StudyId) -> Self {
-        id.0
-    }
-}
-
-impl std::ops::Deref for StudyId {
-    type Target = str;
-
-    fn deref(&self) -> &str {
-        &self.0
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -295,6 +229,36 @@ mod tests {
             protocol.stimulus_set(Path::new("protocols/thesis-2010.toml")),
             Path::new("protocols/../stimuli/thesis-2010.toml")
         );
+    }
+
+    /// To name what differs between the images would tell people what to look for.
+    #[test]
+    fn no_text_of_the_thesis_protocol_says_what_realism_is() {
+        let texts = parse(THESIS).unwrap().texts;
+        let all = [
+            &texts.title,
+            &texts.instructions,
+            &texts.begin,
+            &texts.menu,
+            &texts.pair,
+            &texts.question,
+            &texts.answer_first,
+            &texts.answer_second,
+            &texts.saving,
+            &texts.trouble,
+            &texts.closing,
+            &texts.aborted,
+        ];
+        for text in all {
+            for primer in [
+                "light", "shad", "dark", "ambient", "occlu", "corner", "depth", "photo",
+            ] {
+                assert!(
+                    !text.to_lowercase().contains(primer),
+                    "{primer:?} in {text:?}"
+                );
+            }
+        }
     }
 
     #[test]

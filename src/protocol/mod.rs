@@ -8,6 +8,7 @@ pub mod design;
 pub mod key;
 pub mod plan;
 pub mod procedure;
+pub mod text;
 
 pub use config::Protocol;
 pub use key::Key;

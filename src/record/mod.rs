@@ -16,6 +16,7 @@ pub mod columns;
 pub mod description;
 pub mod error;
 mod files;
+pub mod identity;
 pub mod line;
 pub mod log;
 pub mod participant;
@@ -28,12 +29,13 @@ pub mod study;
 pub(crate) mod tests;
 
 pub use error::RecordError;
+pub use identity::StudyIdentity;
 pub use log::RowLog;
 pub use participant::ParticipantId;
 pub use read::{Rows, Warning, read_folder, read_rows};
 pub use row::{InputDevice, OnsetMethod, Outcome, TrialRow};
 pub use slots::Release;
-pub use study::{Enrolment, Standing, Study, StudyIdentity};
+pub use study::{Enrolment, Standing, Study};
 
 /// Folder of the data files in a results folder.
 pub const DATA_FOLDER: &str = "data";

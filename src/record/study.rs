@@ -2,28 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
 use time::OffsetDateTime;
 use time::format_description::well_known::Rfc3339;
 
 use super::slots::{self, Claim, ClaimRecord, Release, SegmentRecord, Slots};
-use super::{ParticipantId, RecordError, RowLog, TrialRow, description, files, read};
-use crate::protocol::{Condition, Protocol};
-
-/// What a results folder belongs to.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct StudyIdentity {
-    /// Study id.
-    pub study_id: String,
-    /// SHA-256 of the protocol's file.
-    pub protocol_hash: String,
-    /// The study's conditions, in the stimulus set's order.
-    pub conditions: Vec<Condition>,
-    /// SHA-256 of the images, in the set's order, first before second; empty where
-    /// they were not known.
-    #[serde(default)]
-    pub image_sha256: Vec<String>,
-}
+use super::{
+    ParticipantId, RecordError, RowLog, StudyIdentity, TrialRow, description, files, read,
+};
 
 /// An open results folder.
 #[derive(Debug)]
@@ -71,25 +56,6 @@ pub struct Standing {
     pub released: Option<Release>,
 }
 
-impl StudyIdentity {
-    /// The identity of a protocol over the conditions of its stimulus set.
-    #[must_use]
-    pub fn new(protocol: &Protocol, conditions: &[Condition]) -> Self {
-        Self {
-            study_id: protocol.study_id.to_string(),
-            protocol_hash: protocol.hash.clone(),
-            conditions: conditions.to_vec(),
-            image_sha256: Vec::new(),
-        }
-    }
-
-    /// Trials of a whole session.
-    #[must_use]
-    pub fn trials(&self) -> usize {
-        self.conditions.len()
-    }
-}
-
 impl Study {
     /// Opens a results folder, making it if it is not there. `protocol_text` is
     /// kept beside the data as the protocol's file is now.
@@ -114,7 +80,7 @@ impl Study {
             // Whoever is first decides what the folder belongs to.
             files::create_whole(&path, &slots::json(&path, &study.identity)?)?;
         }
-        study.check(&slots::load(&path)?)?;
+        study.identity.check_against(folder, &slots::load(&path)?)?;
         study.keep("materials/protocol.toml", protocol_text.as_bytes())?;
         let path = folder.join("dataset_description.json");
         let description = description::dataset_description(&study.identity);
@@ -139,34 +105,6 @@ impl Study {
         let path = self.folder.join(name);
         if !path.exists() {
             files::create_whole(&path, content)?;
-        }
-        Ok(())
-    }
-
-    fn check(&self, found: &StudyIdentity) -> Result<(), RecordError> {
-        let (path, expected) = (self.folder.clone(), &self.identity);
-        if found.protocol_hash != expected.protocol_hash {
-            return Err(RecordError::OtherProtocol {
-                path,
-                found_study: found.study_id.clone(),
-                found_hash: found.protocol_hash.clone(),
-                expected_study: expected.study_id.clone(),
-                expected_hash: expected.protocol_hash.clone(),
-            });
-        }
-        if found.conditions != expected.conditions {
-            let ids = |identity: &StudyIdentity| {
-                let ids: Vec<&str> = identity.conditions.iter().map(|c| c.id.as_str()).collect();
-                ids.join(", ")
-            };
-            return Err(RecordError::OtherConditions {
-                path,
-                found: ids(found),
-                expected: ids(expected),
-            });
-        }
-        if found.image_sha256 != expected.image_sha256 {
-            return Err(RecordError::OtherImages { path });
         }
         Ok(())
     }

@@ -25,6 +25,8 @@ pub struct Session {
     state: State,
     screen: Screen,
     screen_serial: u64,
+    /// When the current screen became the one to show.
+    entered_at: SessionTime,
     /// First frame of the current screen.
     shown_at: Option<SessionTime>,
     /// Latest time seen: time never runs backwards.
@@ -74,6 +76,7 @@ impl Session {
             state: State::Instructions,
             screen: Screen::Instructions,
             screen_serial: 0,
+            entered_at: SessionTime::default(),
             shown_at: None,
             now: SessionTime::default(),
             unsaved: None,
@@ -91,6 +94,12 @@ impl Session {
     #[must_use]
     pub fn screen_serial(&self) -> u64 {
         self.screen_serial
+    }
+
+    /// True once a frame with the current screen has been reported.
+    #[must_use]
+    pub fn is_shown(&self) -> bool {
+        self.shown_at.is_some()
     }
 
     /// When to send [`Event::Tick`] at the latest: the end of a timed screen.
@@ -153,7 +162,7 @@ impl Session {
                 Vec::new()
             }
             (_, Event::Shown) => {
-                self.shown();
+                self.shown(at);
                 Vec::new()
             }
             (State::Instructions, Event::Begin) => {
@@ -201,16 +210,20 @@ impl Session {
         self.state = state;
         self.screen = screen;
         self.screen_serial += 1;
+        self.entered_at = self.now;
         self.shown_at = None;
     }
 
-    fn shown(&mut self) {
+    /// A display may report a frame after later events: its own time counts, not
+    /// the time of the report, but never one before the screen was asked for.
+    fn shown(&mut self, at: SessionTime) {
         if self.shown_at.is_some() {
             return;
         }
-        self.shown_at = Some(self.now);
+        let onset = at.max(self.entered_at);
+        self.shown_at = Some(onset);
         if let State::Step(step) = self.state {
-            self.trial_log.onset(self.steps[step], self.now);
+            self.trial_log.onset(self.steps[step], onset);
         }
     }
 

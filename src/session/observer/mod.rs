@@ -55,7 +55,7 @@ pub struct Scripted {
 }
 
 impl Scripted {
-    /// Participant id of the `number`th such observer, from 1: `random1-0001`.
+    /// Participant id of the `number`th such observer, from 1: `random1p0001`.
     #[must_use]
     pub fn participant_id(&self, number: u32) -> String {
         let plain: String = self
@@ -63,7 +63,7 @@ impl Scripted {
             .chars()
             .filter(char::is_ascii_alphanumeric)
             .collect();
-        format!("{plain}-{number:04}")
+        format!("{plain}p{number:04}")
     }
 }
 
@@ -105,7 +105,7 @@ mod tests {
     #[test]
     fn observers_are_named_as_on_the_command_line() {
         let random: Scripted = "random:17".parse().unwrap();
-        assert_eq!(random.participant_id(3), "random17-0003");
+        assert_eq!(random.participant_id(3), "random17p0003");
         assert!("first".parse::<Scripted>().is_ok());
     }
 
