@@ -1,4 +1,5 @@
 //! `greyfield analyse` as a person runs it: on the 2010 study's counts, on trial tables, on bad input.
+#![allow(clippy::unwrap_used)]
 
 use std::path::{Path, PathBuf};
 use std::process::Output;
