@@ -29,7 +29,6 @@ pub struct TooSmall {
 }
 
 /// Makes a texture that shows the picture's bytes unchanged.
-#[must_use]
 pub fn upload(ctx: &Context, name: &str, picture: &Picture) -> TextureHandle {
     let size = [picture.width_px as usize, picture.height_px as usize];
     let image = ColorImage::from_rgba_unmultiplied(size, &picture.rgba8);

@@ -82,7 +82,6 @@ fn visuals() -> Visuals {
 }
 
 /// A button that is found first: a dark field, the same on every grey.
-#[must_use]
 pub fn primary_button(text: &str, min_size: egui::Vec2) -> egui::Button<'_> {
     let text = egui::RichText::new(text).color(Color32::from_gray(250));
     // Room on both sides keeps the text in the middle of a wider button.
@@ -93,7 +92,6 @@ pub fn primary_button(text: &str, min_size: egui::Vec2) -> egui::Button<'_> {
 }
 
 /// A light card that holds one group of facts.
-#[must_use]
 pub fn card() -> egui::Frame {
     egui::Frame::new()
         .fill(Color32::from_gray(CARD))
