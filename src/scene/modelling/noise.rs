@@ -72,13 +72,15 @@ impl Noise {
         }
     }
 
-    fn gradient_on(self, p: Vec3, wrap: impl Fn(IVec3) -> IVec3) -> f32 {
+    /// Gradient noise in three dimensions, about −1 to 1, features of size 1.
+    #[must_use]
+    pub fn gradient(self, p: Vec3) -> f32 {
         let floor = p.floor();
         let (base, f) = (floor.as_ivec3(), p - floor);
         let w = fade(f);
         let corner = |x: i32, y: i32, z: i32| {
             let step = IVec3::new(x, y, z);
-            self.slope(wrap(base + step), f - step.as_vec3())
+            self.slope(base + step, f - step.as_vec3())
         };
         let along_x = |y, z| {
             let (a, b) = (corner(0, y, z), corner(1, y, z));
@@ -90,12 +92,6 @@ impl Noise {
         };
         let (a, b) = (along_y(0), along_y(1));
         a + (b - a) * w.z
-    }
-
-    /// Gradient noise in three dimensions, about −1 to 1, features of size 1.
-    #[must_use]
-    pub fn gradient(self, p: Vec3) -> f32 {
-        self.gradient_on(p, |lattice| lattice)
     }
 
     /// `octaves` of gradient noise, each twice as fine and half as strong; about −1 to 1.
@@ -114,9 +110,32 @@ impl Noise {
     #[must_use]
     pub fn tiling(self, uv: Vec2, cells: IVec2) -> f32 {
         let p = uv * cells.as_vec2();
-        self.gradient_on(Vec3::new(p.x, p.y, 0.5), |l| {
-            IVec3::new(l.x.rem_euclid(cells.x), l.y.rem_euclid(cells.y), l.z)
-        })
+        let floor = p.floor();
+        let (base, f) = (floor.as_ivec2(), p - floor);
+        let w = fade(f.extend(0.0));
+        let corner = |x: i32, y: i32| {
+            let step = IVec2::new(x, y);
+            let l = base + step;
+            let wrapped = IVec3::new(l.x.rem_euclid(cells.x), l.y.rem_euclid(cells.y), 0);
+            let d = f - step.as_vec2();
+            // Eight directions of about one length.
+            match self.hash(wrapped) & 7 {
+                0 => d.x + d.y,
+                1 => d.x - d.y,
+                2 => d.y - d.x,
+                3 => -d.x - d.y,
+                4 => 1.4 * d.x,
+                5 => -1.4 * d.x,
+                6 => 1.4 * d.y,
+                _ => -1.4 * d.y,
+            }
+        };
+        let along_x = |y| {
+            let (a, b) = (corner(0, y), corner(1, y));
+            a + (b - a) * w.x
+        };
+        let (a, b) = (along_x(0), along_x(1));
+        a + (b - a) * w.y
     }
 
     /// Octaves of [`Noise::tiling`].

@@ -7,6 +7,8 @@ use std::collections::HashMap;
 use glam::{IVec3, Vec3};
 use rayon::prelude::*;
 
+use super::builder::{MeshBuilder, box_uv_m};
+use super::math::Frame;
 use super::sculpture::Sculpture;
 
 /// Samples along one side of a block.
@@ -23,6 +25,43 @@ pub struct Surface {
     pub curvatures_per_m: Vec<f32>,
     /// Three a triangle, counter-clockwise from outside.
     pub indices: Vec<u32>,
+}
+
+impl Surface {
+    /// Adds the surface, placed in `frame`, with a linear colour for each point and
+    /// box-projected texture coordinates: each triangle takes the axis it faces most,
+    /// and points between two such regions are doubled.
+    pub fn add_to(&self, builder: &mut MeshBuilder, colors: &[Vec3], frame: &Frame) {
+        let mut numbers: HashMap<(u32, [i8; 3]), u32> = HashMap::new();
+        for corners in self.indices.chunks_exact(3) {
+            let sum: Vec3 = corners.iter().map(|&i| self.normals[i as usize]).sum();
+            let axis = main_axis(sum);
+            let key = axis.to_array().map(|a| a as i8);
+            let placed = [0, 1, 2].map(|k| {
+                let i = corners[k] as usize;
+                *numbers.entry((corners[k], key)).or_insert_with(|| {
+                    let p = self.positions_m[i];
+                    builder.tint(colors[i]);
+                    let normal = frame.direction(self.normals[i]);
+                    builder.corner(frame.point(p), normal, box_uv_m(p, axis))
+                })
+            });
+            builder.triangle(placed);
+        }
+        builder.tint(Vec3::ONE);
+    }
+}
+
+/// The signed axis nearest to `n`.
+fn main_axis(n: Vec3) -> Vec3 {
+    let a = n.abs();
+    if a.y >= a.x && a.y >= a.z {
+        Vec3::Y * n.y.signum()
+    } else if a.x >= a.z {
+        Vec3::X * n.x.signum()
+    } else {
+        Vec3::Z * n.z.signum()
+    }
 }
 
 enum Block {
@@ -293,20 +332,28 @@ fn crossing_m(grid: &Grid, (base, axis): Edge) -> Vec3 {
     point(t.clamp(0.06, 0.94))
 }
 
-/// Gradient (unit) and Laplacian of the distance, by differences over a cell.
+/// Gradient (unit) and Laplacian of the distance, from its values at the corners of a
+/// tetrahedron round `p` (Quilez, "Normals for an SDF").
 fn shape_at(grid: &Grid, lattice: IVec3, p: Vec3) -> (Vec3, f32) {
-    let h = 0.6 * grid.cell_m;
+    const CORNERS: [Vec3; 4] = [
+        Vec3::new(1.0, 1.0, 1.0),
+        Vec3::new(1.0, -1.0, -1.0),
+        Vec3::new(-1.0, 1.0, -1.0),
+        Vec3::new(-1.0, -1.0, 1.0),
+    ];
+    let h = 0.4 * grid.cell_m;
     let distance = |p: Vec3| match grid.near(lattice) {
         Some(near) => grid.sculpture.distance_among_m(p, near),
         None => grid.sculpture.distance_m(p),
     };
-    let (mut gradient, mut sum) = (Vec3::ZERO, -6.0 * distance(p));
-    for axis in Vec3::AXES {
-        let (ahead, behind) = (distance(p + axis * h), distance(p - axis * h));
-        gradient += axis * (ahead - behind);
-        sum += ahead + behind;
+    let (mut gradient, mut sum) = (Vec3::ZERO, -4.0 * distance(p));
+    for corner in CORNERS {
+        let d = distance(p + corner * h);
+        gradient += corner * d;
+        sum += d;
     }
-    (gradient.normalize_or(Vec3::Y), sum / (h * h))
+    // Taylor: the sum of the four is 4 d + 2 h² Δd.
+    (gradient.normalize_or(Vec3::Y), sum / (2.0 * h * h))
 }
 
 #[cfg(test)]

@@ -295,12 +295,12 @@ mod tests {
         for c in mesh.indices.chunks_exact(3) {
             let v = [0, 1, 2].map(|k| mesh.vertices[c[k] as usize]);
             let p = v.map(|v| Vec3::from(v.position_m));
-            let face = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero();
-            for v in v {
-                assert!(
-                    face == Vec3::ZERO || face.dot(v.normal.into()) > 0.3,
-                    "{p:?}"
-                );
+            let face = (p[1] - p[0]).cross(p[2] - p[0]);
+            // (At the axis of a lathe triangles shrink to nothing.)
+            if face.length() > 1e-7 {
+                for v in v {
+                    assert!(face.normalize().dot(v.normal.into()) > 0.3, "{p:?}");
+                }
             }
         }
     }

@@ -92,7 +92,7 @@ pub fn brick(seed: u64) -> Recipe {
         shift: 0.5,
         tile_m: TILE_M,
     };
-    let (red, pale, mortar) = (srgb(0x9a5a42), srgb(0xb98a66), srgb(0xb8ac98));
+    let (red, pale, mortar) = (srgb(0x82503f), srgb(0xa07c62), srgb(0x9c9284));
     Recipe {
         name: "brick",
         size_px: 1024,
@@ -106,7 +106,7 @@ pub fn brick(seed: u64) -> Recipe {
             let face = smoothstep(0.003, 0.010, stone.edge_m);
             let grain = noise.tiling_fbm(uv, IVec2::splat(72), 3);
             let soot = noise.tiling_fbm(uv, IVec2::splat(4), 3);
-            let tone = lerp(0.72, 1.1, stone.ids[0]) * (1.0 + 0.16 * grain + 0.12 * soot);
+            let tone = lerp(0.74, 1.04, stone.ids[0]) * (1.0 + 0.16 * grain + 0.12 * soot);
             let color = red.lerp(pale, stone.ids[1] * stone.ids[1]) * tone;
             Texel {
                 albedo: (mortar * (0.85 + 0.2 * grain))

@@ -46,26 +46,37 @@ pub struct Finish {
 /// The linear colour of an sRGB `0xRRGGBB`.
 #[must_use]
 pub fn srgb(hex: u32) -> Vec3 {
-    let channel = |shift: u32| {
-        let c = (hex >> shift & 0xff) as f32 / 255.0;
-        if c <= 0.04045 {
-            c / 12.92
-        } else {
-            math::pow((c + 0.055) / 1.055, 2.4)
-        }
-    };
+    let channel = |shift: u32| decode_srgb((hex >> shift & 0xff) as f32 / 255.0);
     Vec3::new(channel(16), channel(8), channel(0))
 }
 
-/// Encodes a linear value in 8 bits with the sRGB transfer function.
-fn encode_srgb(linear: f32) -> u8 {
-    let c = linear.clamp(0.0, 1.0);
-    let encoded = if c <= 0.003_130_8 {
-        12.92 * c
+/// Encodes linear values in 8 bits with the sRGB transfer function, by the linear
+/// values half way between two codes: 8 comparisons instead of a power.
+struct SrgbEncoder {
+    thresholds: [f32; 255],
+}
+
+impl SrgbEncoder {
+    fn new() -> Self {
+        let halfway = |code: usize| decode_srgb((code as f32 + 0.5) / 255.0);
+        Self {
+            thresholds: std::array::from_fn(halfway),
+        }
+    }
+
+    fn encode(&self, linear: f32) -> u8 {
+        let code = self.thresholds.partition_point(|&t| t <= linear);
+        u8::try_from(code).unwrap_or(u8::MAX)
+    }
+}
+
+/// The sRGB transfer function (IEC 61966-2-1), 0 to 1 both ways.
+fn decode_srgb(c: f32) -> f32 {
+    if c <= 0.04045 {
+        c / 12.92
     } else {
-        1.055 * math::pow(c, 1.0 / 2.4) - 0.055
-    };
-    to_byte(encoded)
+        math::pow((c + 0.055) / 1.055, 2.4)
+    }
 }
 
 fn to_byte(x: f32) -> u8 {
@@ -105,8 +116,9 @@ impl Recipe {
                 .collect(),
             encoding,
         };
+        let encoder = SrgbEncoder::new();
         let albedo = image("albedo", TextureEncoding::Srgb, &|i| {
-            let [r, g, b] = texels[i].albedo.to_array().map(encode_srgb);
+            let [r, g, b] = texels[i].albedo.to_array().map(|c| encoder.encode(c));
             [r, g, b, 255]
         });
         let normal = image("normal", TextureEncoding::Linear, &|i| {

@@ -17,12 +17,12 @@ pub fn plaster(seed: u64) -> Recipe {
     let (pale, ochre) = (srgb(0xe3d5b8), srgb(0xcfb488));
     Recipe {
         name: "plaster",
-        size_px: 1024,
+        size_px: 512,
         tile_m: 4.0,
         texel: Box::new(move |uv| {
             let wash = noise.tiling_fbm(uv, IVec2::splat(3), 5);
             let trowel = noise.tiling_fbm(uv, IVec2::new(20, 34), 3);
-            let sand = noise.tiling(uv, IVec2::splat(200));
+            let sand = noise.tiling(uv, IVec2::splat(128));
             let bent = uv + Vec2::splat(0.02 * noise.tiling_fbm(uv, IVec2::splat(12), 3));
             let cell = noise.cells(bent, IVec2::splat(5));
             let shown = smoothstep(0.1, 0.35, noise.tiling(uv, IVec2::splat(4)));

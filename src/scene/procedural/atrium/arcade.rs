@@ -302,7 +302,7 @@ fn string_course(stuff: &mut Stuff, side: &Side, storey: &Storey) {
         .ovolo(0.06, 0.07)
         .by(0.02, 0.0)
         .by(0.0, 0.05)
-        .by(-0.28, 0.04)
+        .to(-0.3, y + 0.352)
         .profile();
     run_along(&mut stuff.carved, side, &outline);
 }

@@ -346,7 +346,7 @@ pub(super) fn shell(stuff: &mut Stuff) {
         }
     };
     level(&mut stuff.floor, -COURT_DROP_M, [-l, l], [-w, w], true);
-    for (y, inset) in [(0.0, 0.45), (6.7, HALF_WALL_M + 0.05), (13.37, HALF_WALL_M)] {
+    for (y, inset) in [(0.0, 0.45), (6.7, -0.1), (13.37, HALF_WALL_M)] {
         let (ix, iz) = (l - inset, w - inset);
         let target = if y > 10.0 {
             &mut stuff.terracotta

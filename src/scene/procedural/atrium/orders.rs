@@ -149,7 +149,8 @@ fn leaf(stone: &mut MeshBuilder, angle: f32, radius: f32, y: f32, height: f32, w
         let ribs = 0.05 * width * cos(side * PI * 2.5) - 0.1 * width * side * side;
         // Thickness lies along the leaf's own normal, which rolls with it.
         // (none at its edges, where front and back meet).
-        let raised = ribs + thickness * (1.0 - side * side) * smoothstep(1.0, 0.85, t);
+        let raised =
+            ribs + thickness * (1.0 - 0.9 * side * side) * smoothstep(1.0, 0.85, t).max(0.2);
         let (out, rise) = (out + raised * cos(roll), rise - raised * sin(roll));
         let x = side * half;
         // Wrapped about the bell.

@@ -9,7 +9,7 @@ use crate::scene::modelling::math::{cos, on_circle, sin};
 use crate::scene::modelling::sculpture::{Part, Sculpture};
 
 /// The unit of the head: about a third of its length, metres.
-const U: f32 = 0.0225;
+const U: f32 = 0.0275;
 
 /// Builds in the head's frame: x to its left, y up, z forwards, in units of [`U`].
 struct Carver<'a> {

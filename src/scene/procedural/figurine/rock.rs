@@ -14,11 +14,11 @@ pub(super) fn carve(sculpture: &mut Sculpture, seed: u64) {
     // The base: a disc with a rounded rim, worked with waves.
     let base = Frame::at(Vec3::new(0.0, 0.004, 0.0));
     sculpture.add(
-        Part::ellipsoid(base, Vec3::new(0.172, 0.020, 0.172)).with_relief(0.004, move |p| {
+        Part::ellipsoid(base, Vec3::new(0.152, 0.020, 0.152)).with_relief(0.004, move |p| {
             let distance = Vec3::new(p.x, 0.0, p.z).length();
             let wave = noise.gradient(Vec3::new(p.x * 26.0, 3.5, p.z * 26.0));
             let crest = 1.0 - (libm::sinf(distance * 190.0 + 5.0 * wave)).abs();
-            0.0036 * crest * smoothstep(0.172, 0.15, distance)
+            0.0036 * crest * smoothstep(0.152, 0.13, distance)
         }),
     );
     // Boulders, facetted by fractures, leaning on each other up to the neck.

@@ -1,8 +1,0 @@
-//! x
-use super::Generator;
-/// x
-pub const GENERATOR: Generator = Generator {
-    name: "figures",
-    summary: "",
-    generate: |_| crate::scene::Geometry::default(),
-};
