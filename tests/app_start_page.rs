@@ -1,5 +1,6 @@
 //! The experimenter's start page over a real results folder: who comes next, what
 //! stands in the way, and a session from the first click to the rows on disk.
+#![allow(clippy::expect_used)] // a test ends where something is missing
 
 mod support;
 

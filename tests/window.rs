@@ -1,5 +1,6 @@
 //! The real thing: the binary in a real window on a real X server, keys and
 //! clicks from outside, the window's own pixels read back.
+#![allow(clippy::expect_used)] // a test ends where something is missing
 
 mod support;
 #[path = "support/xvfb.rs"]

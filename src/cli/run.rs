@@ -78,7 +78,6 @@ pub struct Prepared {
     /// What was rendered.
     pub manifest: Manifest,
     /// Where the images are.
-    #[allow(dead_code)] // the window loads them from here
     pub stimuli: PathBuf,
 }
 
@@ -105,6 +104,7 @@ pub fn run(args: &Run, verbosity: Verbosity) -> Result<(), Failure> {
 ///
 /// # Errors
 /// As [`run`]; also no display, or no graphics adapter.
+#[allow(dead_code)] // for `greyfield demo`
 pub fn window(
     protocol: &Path,
     stimuli: Option<&Path>,
