@@ -1,6 +1,8 @@
 //! The main job through the binary: render, session, analysis, on the embedded study at a
 //! small size.
 
+#![allow(clippy::unwrap_used)]
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
