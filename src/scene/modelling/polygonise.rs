@@ -396,7 +396,10 @@ mod tests {
                 a.dot(b.cross(c)) / 6.0
             })
             .sum();
-        assert!((volume - 0.5236).abs() < 0.005, "{volume}");
+        assert!(
+            (volume - std::f32::consts::FRAC_PI_6).abs() < 0.005,
+            "{volume}"
+        );
     }
 
     /// Many little balls that just touch make every awkward cell there is; still each

@@ -58,7 +58,7 @@ pub(super) fn trousers(pose: &Pose, build: &Build, noise: Noise) -> Sculpture {
                     26.0,
                     0.0,
                 );
-                0.0045 * fan * smoothstep(0.03, -0.08, p.y)
+                0.0018 * fan * smoothstep(0.03, -0.08, p.y)
             },
         ),
     );
@@ -252,7 +252,6 @@ fn jacket(s: &mut Sculpture, pose: &Pose, build: &Build, noise: Noise) {
 }
 
 fn shirt(s: &mut Sculpture, pose: &Pose, build: &Build, noise: Noise) {
-    let g = build.girth;
     let up = pose.neck - pose.waist;
     let chest = Frame::along(pose.chest + Vec3::Y * 0.01, up, Vec3::Z);
     s.add(
