@@ -130,7 +130,7 @@ mod tests {
         unpack(dir.path()).unwrap();
         let path = dir.path().join(STIMULI);
         std::fs::write(&path, "mine").unwrap();
-        assert_eq!(unpack(dir.path()).unwrap(), [path.clone()]);
+        assert_eq!(unpack(dir.path()).unwrap(), std::slice::from_ref(&path));
         assert_eq!(std::fs::read_to_string(path).unwrap(), "mine");
     }
 }

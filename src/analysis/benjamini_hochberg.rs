@@ -20,7 +20,7 @@ pub const CORRECTION: Correction = Correction {
 #[must_use]
 pub fn adjust(p: &[Probability]) -> Vec<Probability> {
     let mut order: Vec<usize> = (0..p.len()).collect();
-    order.sort_by(|&i, &j| p[i].cmp(&p[j]));
+    order.sort_by(|&i, &j| p[i].total_cmp(&p[j]));
     let mut adjusted = p.to_vec();
     let mut smallest = Probability::ONE;
     for (rank, &i) in order.iter().enumerate().rev() {

@@ -11,7 +11,7 @@ pub const STATISTIC: ConditionStatistic = ConditionStatistic {
         id: "exact_binomial",
         name: "exact binomial test against an even split",
         formula: "p = min(1, 2 P(X ≤ min(a, b))), X ~ Bin(a + b, ½); two-sided",
-        source: "R. A. Fisher (1935), The Design of Experiments, chapter II",
+        source: "W. J. Conover (1999), Practical Nonparametric Statistics, 3rd ed., section 3.1",
         validity: "exact for every number of independent votes; conservative, for votes are whole numbers",
     },
     columns: &[Column::new("p_exact", "p exact", Style::P, Group::Tests)],

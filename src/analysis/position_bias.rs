@@ -11,8 +11,8 @@ const ABOUT: About = About {
     id: "position_bias",
     name: "position bias",
     formula: "share of trials in which the image shown first was chosen, against ½ (exact binomial, Wilson interval)",
-    source: "M. G. Kendall, J. D. Gibbons (1990), Rank Correlation Methods, ch. 11; order counterbalanced as in the 2010 study",
-    validity: "pooled trials of one participant are not independent: the pooled p is a warning light, not a finding",
+    source: "R. R. Davidson, R. J. Beaver (1977), Biometrics 33(4), 693–702, on order effects within pairs",
+    validity: "pooled trials of one participant are not independent: the pooled p is a warning, not a finding",
 };
 
 /// By condition.

@@ -13,8 +13,6 @@ pub enum Undefined {
     CountsOnly,
     /// No participant answered both ways.
     NothingToCompare,
-    /// No response times on record.
-    NoTimes,
 }
 
 impl Undefined {
@@ -25,7 +23,6 @@ impl Undefined {
             Self::NoVotes => "no votes",
             Self::CountsOnly => "needs single answers, the input has only counts",
             Self::NothingToCompare => "no participant chose differently in the two conditions",
-            Self::NoTimes => "no response times on record",
         }
     }
 }

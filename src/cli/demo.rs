@@ -6,7 +6,7 @@ use anyhow::{Context, anyhow};
 use clap::Args;
 use time::OffsetDateTime;
 
-use super::{Failure, Verbosity, render, run};
+use super::{Failure, Verbosity, render, run as session};
 use crate::analysis::input::{self, Options};
 use crate::analysis::{Settings, analyse};
 use crate::report::{self, Format};
@@ -46,23 +46,38 @@ const OBSERVER: &str = "random:2010";
 /// [`Failure`] of the step that failed, with what it was doing.
 pub fn run(args: &Demo, verbosity: Verbosity) -> Result<(), Failure> {
     let out = &args.out;
-    let kept = embedded::unpack(out)
-        .map_err(|(path, error)| anyhow!("{}: {error}; name another folder with --out", path.display()))?;
+    let kept = embedded::unpack(out).map_err(|(path, error)| {
+        anyhow!(
+            "{}: {error}; name another folder with --out",
+            path.display()
+        )
+    })?;
     for path in kept {
-        eprintln!("note: {} differs from the embedded one and is used as it is", path.display());
+        eprintln!(
+            "note: {} differs from the embedded one and is used as it is",
+            path.display()
+        );
     }
     let set = StimulusSet::load(&out.join(embedded::STIMULI)).map_err(Failure::bad_input)?;
     let stimuli = stimuli(&set, args, verbosity)?;
     let protocol = out.join(embedded::PROTOCOL);
     let scripted = args.headless || app::check_display().is_err();
-    let results = out.join(if scripted { "results-scripted" } else { "results" });
+    let results = out.join(if scripted {
+        "results-scripted"
+    } else {
+        "results"
+    });
     if scripted {
         observe(&protocol, &stimuli, &results, args.participants)?;
     } else {
         println!("Opening the application; close its window when you are done.");
-        run::window(&protocol, Some(&stimuli), &results, "demo", true)?;
+        session::window(&protocol, Some(&stimuli), &results, "demo", true)?;
     }
-    let report = out.join(if scripted { "report-scripted.html" } else { "report.html" });
+    let report = out.join(if scripted {
+        "report-scripted.html"
+    } else {
+        "report.html"
+    });
     let analysed = analyse_results(&results, &report)?;
     println!("\nimages  {}", stimuli.display());
     println!("data    {}", results.display());
@@ -92,7 +107,9 @@ fn stimuli(set: &StimulusSet, args: &Demo, verbosity: Verbosity) -> Result<PathB
     }
     let started = std::time::Instant::now();
     let manifest = render::draw(set, &folder, None, args.adapter.as_deref(), verbosity)?.manifest;
-    let adapter = manifest.adapter.map_or_else(String::new, |adapter| format!(" on {}", adapter.name));
+    let adapter = manifest
+        .adapter
+        .map_or_else(String::new, |adapter| format!(" on {}", adapter.name));
     println!(
         "Rendered {} images in {:.0} s{adapter}.",
         2 * manifest.pairs.len(),
@@ -107,11 +124,17 @@ fn observe(
     results: &Path,
     participants: u32,
 ) -> Result<(), Failure> {
-    let prepared = run::prepare(protocol, Some(stimuli))?;
-    let scripted = OBSERVER.parse().map_err(|message: String| anyhow!(message))?;
-    let study =
-        start::open_study(results, &prepared.protocol, &prepared.protocol_text, &prepared.manifest)
-            .map_err(run::failure_of_folder)?;
+    let prepared = session::prepare(protocol, Some(stimuli))?;
+    let scripted = OBSERVER
+        .parse()
+        .map_err(|message: String| anyhow!(message))?;
+    let study = start::open_study(
+        results,
+        &prepared.protocol,
+        &prepared.protocol_text,
+        &prepared.manifest,
+    )
+    .map_err(session::failure_of_folder)?;
     let summary = Headless {
         study: &study,
         protocol: &prepared.protocol,
@@ -120,7 +143,7 @@ fn observe(
         station: "demo",
     }
     .run(participants, OffsetDateTime::now_utc, |_| {})
-    .map_err(run::failure_of_run)?;
+    .map_err(session::failure_of_run)?;
     println!(
         "{} scripted observers ({OBSERVER}) finished, {} rows written.",
         summary.finished + summary.resumed + summary.already_finished,
@@ -131,7 +154,9 @@ fn observe(
 
 /// Prints the tables and writes the page; false if there is nothing to analyse yet.
 fn analyse_results(results: &Path, page: &Path) -> Result<bool, Failure> {
-    let options = Options { include_pilot: true };
+    let options = Options {
+        include_pilot: true,
+    };
     let data = match input::read(&[results.to_owned()], options) {
         Ok(data) => data,
         Err(error) => {

@@ -1,6 +1,8 @@
 //! The command line: one file a subcommand, no logic of its own.
 
 mod analyse;
+mod demo;
+mod logging;
 mod order;
 mod output;
 mod render;
@@ -27,6 +29,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Demo(demo::Demo),
     Render(render::RenderArgs),
     Run(Box<run::Run>),
     Order(order::Order),
@@ -79,7 +82,9 @@ fn run(cli: Cli) -> Result<(), Failure> {
         quiet: cli.quiet,
         level: cli.verbose,
     };
+    logging::init(verbosity);
     match cli.command {
+        Command::Demo(args) => demo::run(&args, verbosity),
         Command::Render(args) => render::run(&args, verbosity),
         Command::Run(args) => run::run(&args, verbosity),
         Command::Order(args) => order::run(&args),

@@ -97,6 +97,7 @@ fn conditions(set: &Path) -> Result<Vec<Condition>, Failure> {
         scene: set.scenes[condition.scene].id.clone(),
         first_technique: condition.first.label.clone(),
         second_technique: condition.second.label.clone(),
+        hypothesis: condition.hypothesis.clone(),
     };
     Ok(set.conditions.iter().map(condition).collect())
 }

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
@@ -9,6 +10,7 @@ use serde_json::json;
 use time::OffsetDateTime;
 
 use super::{Failure, Verbosity};
+use crate::app;
 use crate::config;
 use crate::protocol::Protocol;
 use crate::record::RecordError;
@@ -76,7 +78,6 @@ pub struct Prepared {
     /// What was rendered.
     pub manifest: Manifest,
     /// Where the images are.
-    #[allow(dead_code)] // the window loads them from here
     pub stimuli: PathBuf,
 }
 
@@ -85,12 +86,75 @@ pub struct Prepared {
 /// # Errors
 /// Bad input (exit code 2): protocol, stimuli, names. Otherwise the disk.
 pub fn run(args: &Run, verbosity: Verbosity) -> Result<(), Failure> {
-    let prepared = prepare(&args.protocol, args.stimuli.as_deref())?;
     if args.headless {
-        headless(args, &prepared, verbosity)
-    } else {
-        Err(anyhow!("sessions in a window are not here yet; use --headless").into())
+        let prepared = prepare(&args.protocol, args.stimuli.as_deref())?;
+        return headless(args, &prepared, verbosity);
     }
+    open_window(&InWindow {
+        protocol: &args.protocol,
+        stimuli: args.stimuli.as_deref(),
+        results: &args.results,
+        station: &args.station,
+        pilot: args.pilot,
+        windowed: args.windowed,
+    })
+}
+
+/// Sessions in a window that covers the screen, until it is closed.
+///
+/// # Errors
+/// As [`run`]; also no display, or no graphics adapter.
+#[allow(dead_code)] // for `greyfield demo`
+pub fn window(
+    protocol: &Path,
+    stimuli: Option<&Path>,
+    results: &Path,
+    station: &str,
+    pilot: bool,
+) -> Result<(), Failure> {
+    open_window(&InWindow {
+        protocol,
+        stimuli,
+        results,
+        station,
+        pilot,
+        windowed: false,
+    })
+}
+
+struct InWindow<'a> {
+    protocol: &'a Path,
+    stimuli: Option<&'a Path>,
+    results: &'a Path,
+    station: &'a str,
+    pilot: bool,
+    windowed: bool,
+}
+
+fn open_window(wanted: &InWindow<'_>) -> Result<(), Failure> {
+    let started = Instant::now();
+    // Before anything is written.
+    app::check_display()?;
+    let prepared = prepare(wanted.protocol, wanted.stimuli)?;
+    let study = start::open_study(
+        wanted.results,
+        &prepared.protocol,
+        &prepared.protocol_text,
+        &prepared.manifest,
+    )
+    .map_err(failure_of_folder)?;
+    app::run(app::Setup {
+        protocol: prepared.protocol,
+        protocol_path: wanted.protocol.to_owned(),
+        manifest: prepared.manifest,
+        stimuli: prepared.stimuli,
+        study,
+        station: wanted.station.to_owned(),
+        pilot: wanted.pilot,
+        windowed: wanted.windowed,
+        started,
+    })?;
+    Ok(())
 }
 
 /// Reads the protocol and the rendered stimuli, and checks every image.

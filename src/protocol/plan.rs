@@ -15,6 +15,9 @@ pub struct Condition {
     pub first_technique: String,
     /// Technique of the other.
     pub second_technique: String,
+    /// The hypothesis it asks (`H1`), free text; empty where none is said.
+    #[serde(default)]
+    pub hypothesis: String,
 }
 
 /// Which of the two images of a trial, by time.
@@ -142,6 +145,7 @@ mod tests {
             scene: "atrium".to_owned(),
             first_technique: "none".to_owned(),
             second_technique: "blizzard24".to_owned(),
+            hypothesis: String::new(),
         }
     }
 

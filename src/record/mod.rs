@@ -26,7 +26,7 @@ mod slots;
 pub mod spreadsheet;
 pub mod study;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use error::RecordError;
 pub use identity::StudyIdentity;

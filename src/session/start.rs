@@ -81,6 +81,7 @@ pub fn conditions(manifest: &Manifest) -> Vec<Condition> {
             scene: pair.scene.clone(),
             first_technique: pair.first.technique.clone(),
             second_technique: pair.second.technique.clone(),
+            hypothesis: pair.hypothesis.clone(),
         })
         .collect()
 }

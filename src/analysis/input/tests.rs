@@ -1,5 +1,7 @@
 use super::*;
 use crate::analysis::dataset::Votes;
+use crate::protocol::Phase;
+use crate::record::{InputDevice, TrialRow, line};
 use proptest::prelude::*;
 
 const TRIALS: &str = "participant,condition,first_technique,second_technique,chosen,rt_ms\n";
@@ -184,6 +186,131 @@ fn a_column_nobody_reads_is_noted() {
         "{:?}",
         data.notes
     );
+}
+
+/// A results folder with one data file of these rows.
+fn results_folder(rows: &[TrialRow], conditions: Option<&str>) -> tempfile::TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    let data = dir.path().join("data");
+    std::fs::create_dir(&data).unwrap();
+    let mut bytes = line::header().into_bytes();
+    for row in rows {
+        bytes.extend(line::encode(row).unwrap());
+    }
+    std::fs::write(data.join("study-s_subject-P1_session-1_data.csv"), bytes).unwrap();
+    if let Some(conditions) = conditions {
+        let study = format!(
+            "{{\"study_id\":\"s\",\"protocol_hash\":\"{}\",\"conditions\":{conditions}}}",
+            "ab".repeat(32)
+        );
+        std::fs::write(dir.path().join("study.json"), study).unwrap();
+    }
+    dir
+}
+
+fn row(participant: &str, trial_index: u32, condition: &str) -> TrialRow {
+    TrialRow {
+        condition: condition.to_owned(),
+        ..crate::record::tests::row(participant, trial_index)
+    }
+}
+
+#[test]
+fn a_results_folder_carries_base_orders_and_leaves_out_what_does_not_count() {
+    let rows = [
+        TrialRow {
+            phase: Phase::Practice,
+            ..row("P1", 0, "warm-up")
+        },
+        TrialRow {
+            phase: Phase::Catch,
+            ..row("P1", 1, "same")
+        },
+        TrialRow {
+            pilot: true,
+            ..row("P2", 2, "b")
+        },
+        row("P1", 3, "b"),
+        TrialRow {
+            input_device: InputDevice::Scripted,
+            ..row("P1", 4, "a")
+        },
+    ];
+    let study = r#"[{"id":"b","scene":"atrium","first_technique":"blizzard24","second_technique":"none","hypothesis":"H1"},
+        {"id":"a","scene":"atrium","first_technique":"none","second_technique":"blizzard24"}]"#;
+    let dir = results_folder(&rows, Some(study));
+    let data = read(&[dir.path().to_owned()], Options::default()).unwrap();
+    let ids: Vec<&str> = data.conditions.iter().map(|c| c.id.as_str()).collect();
+    assert_eq!(ids, ["b", "a"], "the study's order");
+    // The rows show none first and choose the second: blizzard24, which is b's technique a.
+    assert_eq!(data.conditions[0].technique_a, "blizzard24");
+    assert_eq!(data.conditions[0].votes, Votes { a: 1, b: 0 });
+    assert_eq!(data.conditions[1].votes, Votes { a: 0, b: 1 });
+    assert_eq!(data.conditions[0].hypothesis.as_deref(), Some("H1"));
+    assert_eq!(data.conditions[1].hypothesis, None);
+    assert_eq!(
+        (data.sources[0].rows_used, data.sources[0].rows_left_out),
+        (2, 3)
+    );
+    for part in [
+        "1 practice",
+        "1 catch",
+        "1 trials of pilot",
+        "1 trials were answered by a scripted",
+    ] {
+        assert!(
+            data.notes.iter().any(|note| note.starts_with(part)),
+            "{part}: {:?}",
+            data.notes
+        );
+    }
+    let with_pilot = Options {
+        include_pilot: true,
+    };
+    let data = read(&[dir.path().to_owned()], with_pilot).unwrap();
+    assert_eq!(data.conditions[0].votes, Votes { a: 2, b: 0 });
+}
+
+#[test]
+fn a_torn_line_of_a_session_is_passed_over_and_noted() {
+    let dir = results_folder(&[row("P1", 0, "a"), row("P1", 1, "b")], None);
+    let file = dir
+        .path()
+        .join("data/study-s_subject-P1_session-1_data.csv");
+    let bytes = std::fs::read(&file).unwrap();
+    std::fs::write(&file, &bytes[..bytes.len() - 30]).unwrap();
+    // As a folder and as a single file.
+    for input in [dir.path().to_owned(), file] {
+        let data = read(&[input], Options::default()).unwrap();
+        assert_eq!(data.conditions.len(), 1);
+        assert!(
+            data.notes[0].contains(":3: passed over"),
+            "{:?}",
+            data.notes
+        );
+    }
+}
+
+#[test]
+fn answers_given_twice_in_two_sessions_are_refused_by_line() {
+    let dir = results_folder(&[row("P1", 0, "a"), row("P1", 1, "a")], None);
+    let message = read(&[dir.path().to_owned()], Options::default())
+        .unwrap_err()
+        .to_string();
+    assert!(
+        message.contains("_data.csv:3:") && message.contains("_data.csv:2"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_results_folder_without_data_says_so() {
+    let dir = tempfile::tempdir().unwrap();
+    std::fs::create_dir(dir.path().join("data")).unwrap();
+    let message = read(&[dir.path().to_owned()], Options::default())
+        .unwrap_err()
+        .to_string();
+    assert!(message.contains("run a session first"), "{message}");
 }
 
 proptest! {

@@ -93,7 +93,8 @@ impl Trials {
                     self.conditions.push(Pair {
                         a,
                         b,
-                        hypothesis: None,
+                        hypothesis: Some(condition.hypothesis.clone())
+                            .filter(|hypothesis| !hypothesis.is_empty()),
                         counts: OrderCounts::default(),
                         place,
                     });

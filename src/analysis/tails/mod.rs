@@ -93,7 +93,7 @@ impl Probability {
 
     /// Total order by size.
     #[must_use]
-    pub fn cmp(&self, other: &Self) -> Ordering {
+    pub fn total_cmp(&self, other: &Self) -> Ordering {
         self.ln.total_cmp(&other.ln)
     }
 }

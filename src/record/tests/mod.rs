@@ -8,7 +8,7 @@ use super::{InputDevice, OnsetMethod, Outcome, TrialRow};
 use crate::protocol::{Phase, Position};
 
 /// An answered trial.
-fn row(participant: &str, trial_index: u32) -> TrialRow {
+pub(crate) fn row(participant: &str, trial_index: u32) -> TrialRow {
     TrialRow {
         row_id: format!("{participant}:1:main:{trial_index}"),
         schema_version: SCHEMA_VERSION,

@@ -21,6 +21,7 @@ fn identity() -> StudyIdentity {
                 scene: "atrium".to_owned(),
                 first_technique: "none".to_owned(),
                 second_technique: "blizzard24".to_owned(),
+                hypothesis: "H1".to_owned(),
             })
             .into(),
         image_sha256: vec!["cd".repeat(32)],

@@ -120,7 +120,7 @@ impl Settings {
     pub fn set_scene_default(&mut self, name: &str, value: f64) -> Result<(), SettingsError> {
         let mut probe = self.clone();
         probe.set(name, value)?;
-        if !self.fixed_by_label.iter().any(|fixed| *fixed == name) {
+        if !self.fixed_by_label.contains(&name) {
             *self = probe;
         }
         Ok(())

@@ -47,7 +47,24 @@ fn result(page: &mut String, analysis: &Analysis) {
     for sentence in &analysis.conclusion {
         paragraph(page, sentence);
     }
+    notes(page, &analysis.data.notes);
     page.push_str("</section>\n");
+}
+
+/// What the reader must know about the input, beside the result: a scripted observer is no person.
+fn notes(page: &mut String, notes: &[String]) {
+    /// A folder with many damaged lines has a note on each; the JSON report has them all.
+    const MOST: usize = 8;
+    for note in notes.iter().take(MOST) {
+        let _ = writeln!(page, "<p class=\"reason\">{}</p>", escape(note));
+    }
+    if notes.len() > MOST {
+        let _ = writeln!(
+            page,
+            "<p class=\"reason\">… and {} notes more, in the JSON report.</p>",
+            notes.len() - MOST
+        );
+    }
 }
 
 fn choices(page: &mut String, analysis: &Analysis) {
@@ -198,9 +215,6 @@ fn methods_section(page: &mut String, analysis: &Analysis) {
 fn provenance(page: &mut String, analysis: &Analysis) {
     page.push_str("<section>\n<h2>Provenance</h2>\n");
     let sources = &analysis.data.sources;
-    for note in &analysis.data.notes {
-        paragraph(page, note);
-    }
     let many = sources.len() > 8;
     if many {
         let _ = writeln!(

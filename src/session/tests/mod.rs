@@ -26,6 +26,7 @@ fn conditions() -> Vec<Condition> {
             scene: "atrium".to_owned(),
             first_technique: format!("{id}-base"),
             second_technique: format!("{id}-other"),
+            hypothesis: String::new(),
         })
         .into()
 }
