@@ -14,8 +14,9 @@ use super::Generator;
 use crate::scene::geometry::{Geometry, Material, Mesh, Vertex};
 use crate::scene::modelling::Noise;
 use crate::scene::modelling::math::{perpendicular, smoothstep};
-use crate::scene::modelling::polygonise::{Surface, polygonise};
+use crate::scene::modelling::polygonise::polygonise;
 use crate::scene::modelling::sculpture::Sculpture;
+use crate::scene::modelling::surface::Surface;
 use crate::scene::texture::srgb;
 
 /// The registry's entry.

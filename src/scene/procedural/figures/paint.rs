@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use super::person::{Layer, Stuff};
 use crate::scene::modelling::Noise;
 use crate::scene::modelling::math::smoothstep;
-use crate::scene::modelling::polygonise::Surface;
 use crate::scene::modelling::sculpture::Sculpture;
+use crate::scene::modelling::surface::Surface;
 
 const CELL_M: f32 = 0.018;
 /// How far the volume reaches beyond the figure, metres.
