@@ -58,16 +58,16 @@ pub fn hexahedron(builder: &mut MeshBuilder, corners_m: &[Vec3; 8], bevel_m: f32
         };
         p + towards(1) + towards(3)
     };
-    for f in 0..6 {
+    for (f, face) in FACES.iter().enumerate() {
         let n = normal(f);
-        let [a, b, c, d] = FACES[f].map(|i| {
+        let [a, b, c, d] = face.map(|i| {
             let p = inset(f, i);
             builder.corner(p, n, box_uv_m(p, n))
         });
         builder.triangle([a, b, c]);
         builder.triangle([a, c, d]);
         for k in 0..4 {
-            let (i, j) = (FACES[f][k], FACES[f][(k + 1) % 4]);
+            let (i, j) = (face[k], face[(k + 1) % 4]);
             let Some(g) = face_across(i, j, f).filter(|&g| g > f) else {
                 continue;
             };
@@ -81,7 +81,7 @@ pub fn hexahedron(builder: &mut MeshBuilder, corners_m: &[Vec3; 8], bevel_m: f32
         }
     }
     let centre = corners_m.iter().sum::<Vec3>() / 8.0;
-    for i in 0..8 {
+    for (i, &tip) in corners_m.iter().enumerate() {
         let mut at = (0..6).filter(|&f| FACES[f].contains(&i));
         let (Some(f), Some(g), Some(h)) = (at.next(), at.next(), at.next()) else {
             continue;
@@ -89,7 +89,7 @@ pub fn hexahedron(builder: &mut MeshBuilder, corners_m: &[Vec3; 8], bevel_m: f32
         let points = [f, g, h].map(|face| (inset(face, i), normal(face)));
         let facing = (points[1].0 - points[0].0).cross(points[2].0 - points[0].0);
         let [a, b, c] = points.map(|(p, n)| builder.corner(p, n, box_uv_m(p, points[0].1)));
-        if facing.dot(corners_m[i] - centre) > 0.0 {
+        if facing.dot(tip - centre) > 0.0 {
             builder.triangle([a, b, c]);
         } else {
             builder.triangle([a, c, b]);

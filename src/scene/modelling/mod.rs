@@ -14,6 +14,7 @@ pub mod polygonise;
 pub mod profile;
 pub mod sculpture;
 pub mod sdf;
+pub mod surface;
 
 pub use builder::MeshBuilder;
 pub use math::Frame;

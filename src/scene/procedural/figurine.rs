@@ -14,8 +14,9 @@ use super::Generator;
 use crate::scene::geometry::{Geometry, Material, Mesh, Vertex};
 use crate::scene::modelling::Noise;
 use crate::scene::modelling::math::{perpendicular, smoothstep};
-use crate::scene::modelling::polygonise::{Surface, polygonise};
+use crate::scene::modelling::polygonise::polygonise;
 use crate::scene::modelling::sculpture::Sculpture;
+use crate::scene::modelling::surface::Surface;
 use crate::scene::texture::srgb;
 
 /// The registry's entry.
@@ -52,7 +53,7 @@ fn generate(seed: u64) -> Geometry {
 /// ridges. No shading is painted in: occlusion is the renderer's part here.
 fn mesh(surface: &Surface, seed: u64) -> Mesh {
     let noise = Noise::new(seed, "figurine jade", 0);
-    let (deep, pale, vein) = (srgb(0x6f9577), srgb(0xaec6a4), srgb(0xc9c4a0));
+    let (deep, pale, vein) = (srgb(0x8fae90), srgb(0xa9c2a2), srgb(0xb9c2a4));
     let vertices = (0..surface.positions_m.len())
         .into_par_iter()
         .map(|i| {

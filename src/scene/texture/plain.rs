@@ -27,10 +27,10 @@ pub fn plaster(seed: u64) -> Recipe {
             let cell = noise.cells(bent, IVec2::splat(5));
             let shown = smoothstep(0.1, 0.35, noise.tiling(uv, IVec2::splat(4)));
             let crack = smoothstep(0.012, 0.003, cell.second - cell.nearest) * shown;
-            let patch = smoothstep(-0.25, 0.45, wash);
+            let patch = smoothstep(-0.6, 0.7, wash);
             let shade = 1.0 + 0.06 * trowel + 0.03 * sand - 0.35 * crack;
             Texel {
-                albedo: limit(pale.lerp(ochre, patch) * shade),
+                albedo: limit(pale.lerp(ochre, 0.6 * patch) * shade),
                 height_m: 0.004 * trowel + 0.0006 * sand - 0.003 * crack,
                 roughness: (0.9 + 0.05 * trowel).clamp(0.3, 1.0),
             }
@@ -55,7 +55,7 @@ pub fn carved_stone(seed: u64) -> Recipe {
             let pit = smoothstep(0.22, 0.08, pit.nearest) * smoothstep(0.7, 0.95, pit.id);
             Texel {
                 albedo: limit(
-                    light.lerp(warm, (0.5 + bed).clamp(0.0, 1.0))
+                    light.lerp(warm, (0.5 + 0.6 * bed).clamp(0.0, 1.0))
                         * (1.0 + 0.06 * grain - 0.3 * pit),
                 ),
                 height_m: 0.0012 * grain + 0.001 * bed - 0.003 * pit,

@@ -155,7 +155,7 @@ fn back_wall(stuff: &mut Stuff, side: &Side, storey: &Storey, bay: u32) {
         .profile();
     let ends = [x0, x1].map(|x| side.frame.point(Vec3::new(x, 0.0, z + 0.05)));
     rail.run(&mut stuff.carved, &ends, false);
-    if (bay + u32::from(storey.upper)) % 2 == 0 {
+    if (bay + u32::from(storey.upper)).is_multiple_of(2) {
         door(stuff, side, storey, 0.5 * (x0 + x1));
     } else {
         window(stuff, side, storey, 0.5 * (x0 + x1));

@@ -6,6 +6,7 @@ mod arcade;
 mod hangings;
 mod interior;
 mod materials;
+mod mouldings;
 mod orders;
 mod props;
 

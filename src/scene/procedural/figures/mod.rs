@@ -11,6 +11,7 @@ mod head;
 mod paint;
 mod person;
 mod pose;
+mod tops;
 mod yard;
 
 use glam::Vec3;

@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use super::person::{Layer, Stuff};
 use crate::scene::modelling::Noise;
 use crate::scene::modelling::math::smoothstep;
-use crate::scene::modelling::polygonise::Surface;
 use crate::scene::modelling::sculpture::Sculpture;
+use crate::scene::modelling::surface::Surface;
 
 const CELL_M: f32 = 0.018;
 /// How far the volume reaches beyond the figure, metres.
@@ -117,7 +117,7 @@ pub(super) fn colors(surface: &Surface, layer: &Layer, volume: &Volume, noise: N
             let base = (layer.paint)(p, n);
             // Hollows of skin turn red, not grey: light has gone through it.
             let tint = if layer.stuff == Stuff::Skin {
-                Vec3::new(shade.powi(1), shade * shade.sqrt(), shade * shade.sqrt())
+                Vec3::new(shade, shade * shade.sqrt(), shade * shade.sqrt())
             } else {
                 Vec3::splat(shade)
             };

@@ -4,7 +4,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::pose::Pose;
-use super::{Materials, accessories, boots, garments, hair, hands, head, paint};
+use super::{Materials, accessories, boots, garments, hair, hands, head, paint, tops};
 use crate::scene::geometry::Mesh;
 use crate::scene::modelling::noise::Noise;
 use crate::scene::modelling::polygonise::polygonise;
@@ -120,7 +120,7 @@ impl Person {
     fn dress(seed: u64, index: u64, pose: &Pose, build: &Build) -> Self {
         let noise = Noise::new(seed, "figures folds", index);
         let trousers = garments::trousers(pose, build, noise);
-        let top = garments::top(pose, build, noise);
+        let top = tops::top(pose, build, noise);
         let mut layers = Vec::new();
         layers.extend(accessories::over(pose, build, noise, &top, &trousers));
         layers.push(Layer::dyed(

@@ -129,6 +129,16 @@ fn crate_box(
         batten([-half, -half + b], [-half + b, half - b]);
         batten([half - b, -half + b], [half, half - b]);
     }
+    // Dark inside, so that no light shows between the planks.
+    wood.tint(Vec3::splat(0.15));
+    let inner = half - 0.06;
+    block(
+        wood,
+        frame,
+        Vec3::new(-inner, 0.02, -inner),
+        Vec3::new(inner, size - 0.04, inner),
+        0.002,
+    );
     wood.tint(Vec3::splat(0.9));
     block(
         wood,

@@ -5,7 +5,6 @@ use std::f32::consts::{PI, TAU};
 
 use glam::Vec3;
 
-use crate::scene::modelling::Frame;
 use crate::scene::modelling::math::{catmull_rom, cos, lerp, on_circle, pow, smoothstep};
 use crate::scene::modelling::sculpture::{Part, Sculpture};
 
@@ -31,6 +30,8 @@ pub(super) struct Spine {
 }
 
 const KNOTS: usize = 260;
+/// Length of a scale along the body, metres; round it there are always fifteen.
+const SCALE_M: f32 = 0.0095;
 
 impl Spine {
     /// Winds out from under, twice round the rock, then rears up into an S that looks
@@ -91,11 +92,6 @@ impl Spine {
         &self.knots[((t * last as f32) as usize).min(last)]
     }
 
-    /// A frame at a knot: y towards the head, z towards the crest.
-    pub fn frame(knot: &Knot) -> Frame {
-        Frame::along(knot.at_m, knot.ahead, knot.back)
-    }
-
     /// The head's end.
     pub fn head(&self) -> &Knot {
         &self.knots[self.knots.len() - 1]
@@ -134,13 +130,8 @@ fn segment(a: Knot, b: Knot) -> Part {
     let length = a.at_m.distance(b.at_m);
     let limit = 0.16 * a.radius_m;
     let part = Part::limb((a.at_m, a.radius_m), (b.at_m, b.radius_m), a.back);
-    // Scales keep their proportion: their number round the body is fixed, so their
-    // length along it follows the radius. `lengths` counts scales from the tail.
-    let per_scale = |radius: f32| TAU * radius / 15.0;
-    let start = a.along_m / per_scale(0.5 * (a.radius_m + b.radius_m)).max(1e-4);
-    let _ = start;
-    let first = scale_count(a);
-    let last = scale_count(b);
+    let first = a.along_m / SCALE_M;
+    let last = b.along_m / SCALE_M;
     part.with_relief(limit, move |p| {
         // 0 at the crest, ±½ at the belly.
         let turns = libm::atan2f(p.x, p.z) / TAU;
@@ -153,13 +144,6 @@ fn segment(a: Knot, b: Knot) -> Part {
         let groove = smoothstep(0.0, 0.012, (turns.abs() - 0.345).abs());
         limit * (lerp(scale * 0.85, plate * 0.8, belly) * (0.3 + 0.7 * groove))
     })
-}
-
-/// How many scales lie between the tail and a knot. The spine is made so that the
-/// radius varies slowly: the sum of way over scale length, in closed form for the
-/// mean radius, is close enough and continuous.
-fn scale_count(knot: Knot) -> f32 {
-    knot.along_m / 0.0095
 }
 
 /// A row of backward-leaning blades along the back.

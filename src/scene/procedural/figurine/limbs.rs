@@ -1,4 +1,4 @@
-//! Four legs with clawed feet, two gripping the rock, one holding the pearl.
+//! Four legs with clawed feet: the hind ones braced, the fore ones raised.
 
 use glam::Vec3;
 
