@@ -47,7 +47,7 @@ impl GpuScene {
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
-            anisotropy_clamp: 8,
+            anisotropy_clamp: 4,
             ..wgpu::SamplerDescriptor::default()
         });
         let pick = |index: Option<usize>| index.map_or(&white, |index| &textures[index]);
