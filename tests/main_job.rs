@@ -125,8 +125,15 @@ fn render_session_analysis() {
     let conditions = report["conditions"].as_array().unwrap();
     assert_eq!(conditions.len(), 7);
     for condition in conditions {
-        let line = condition.to_string();
-        assert!(line.contains("14"), "{line}");
+        assert_eq!(
+            (&condition["votes_a"], &condition["votes_b"]),
+            (&14.into(), &14.into())
+        );
+        assert_eq!(
+            (&condition["chose_first"], &condition["chose_second"]),
+            (&28.into(), &0.into())
+        );
+        assert_eq!(condition["p_exact"], 1.0);
     }
     let table = succeed(greyfield(&["analyse", text(&results)]));
     assert!(table.contains("sponza-moderate-h1"), "{table}");

@@ -71,10 +71,27 @@ pub fn main() -> ExitCode {
     match run(cli) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("error: {:#}", failure.error);
+            eprintln!("error: {}", one_message(&failure.error));
             ExitCode::from(failure.code)
         }
     }
+}
+
+/// An error and its causes as one sentence; a cause that the sentence already quotes is not
+/// said again.
+fn one_message(error: &anyhow::Error) -> String {
+    error
+        .chain()
+        .map(ToString::to_string)
+        .fold(String::new(), |message, cause| {
+            if message.is_empty() {
+                cause
+            } else if message.contains(&cause) {
+                message
+            } else {
+                format!("{message}: {cause}")
+            }
+        })
 }
 
 fn run(cli: Cli) -> Result<(), Failure> {
