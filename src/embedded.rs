@@ -62,6 +62,7 @@ pub fn unpack(folder: &Path) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
 mod tests {
     use super::*;
     use crate::protocol::Protocol;
+    use crate::render::plan::{FramePlan, GeometryFacts};
     use crate::stimulus::StimulusSet;
 
     #[test]
@@ -122,6 +123,34 @@ mod tests {
             ["characters-high", "high", "none", "blizzard24", "H1"],
         ];
         assert_eq!(found, expected);
+    }
+
+    /// Each lighting brings its passes, each technique its own, and nothing else runs.
+    #[test]
+    fn every_picture_runs_what_it_calls_for() {
+        let dir = tempfile::tempdir().unwrap();
+        unpack(dir.path()).unwrap();
+        let set = StimulusSet::load(&dir.path().join(STIMULI)).unwrap();
+        let facts = GeometryFacts {
+            triangles: 1,
+            has_normal_maps: true,
+        };
+        for condition in &set.conditions {
+            for technique in [&condition.first, &condition.second] {
+                let mut expected = vec!["geometry"];
+                if condition.validity == "high" {
+                    expected.insert(0, "shadow-map");
+                }
+                if technique.label != "none" {
+                    expected.extend(["occlusion-geometry", "occlusion"]);
+                    expected.extend(["blur-rows", "blur-columns"]);
+                }
+                expected.extend(["lighting", "output"]);
+                let plan = FramePlan::new(&set.request(condition, technique), facts);
+                let found: Vec<&str> = plan.passes.iter().map(|pass| pass.kind.name()).collect();
+                assert_eq!(found, expected, "{} {}", condition.id, technique.label);
+            }
+        }
     }
 
     #[test]

@@ -104,7 +104,6 @@ pub fn run(args: &Run, verbosity: Verbosity) -> Result<(), Failure> {
 ///
 /// # Errors
 /// As [`run`]; also no display, or no graphics adapter.
-#[allow(dead_code)] // for `greyfield demo`
 pub fn window(
     protocol: &Path,
     stimuli: Option<&Path>,

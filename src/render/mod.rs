@@ -14,6 +14,7 @@ pub mod plan;
 mod readback;
 mod renderer;
 mod shader;
+mod targets;
 pub mod technique;
 mod timestamps;
 mod upload;

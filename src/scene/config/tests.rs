@@ -1,4 +1,5 @@
 use super::*;
+use crate::scene::lighting::Ambient;
 
 const GOOD: &str = r#"
 title = "A test"
