@@ -37,8 +37,18 @@ pub fn missing() -> Option<String> {
 impl Xvfb {
     pub fn start(width_px: u32, height_px: u32) -> Self {
         let frame_buffer = tempfile::tempdir().expect("a temporary folder");
+        // Without -noreset the server starts over whenever its last client leaves, and refuses
+        // whoever connects just then: the first xdotool would race the application.
         let mut server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-nolisten", "tcp", "-screen", "0"])
+            .args([
+                "-displayfd",
+                "1",
+                "-noreset",
+                "-nolisten",
+                "tcp",
+                "-screen",
+                "0",
+            ])
             .arg(format!("{width_px}x{height_px}x24"))
             .arg("-fbdir")
             .arg(frame_buffer.path())
