@@ -188,13 +188,12 @@ fn explain(set: &StimulusSet, only: Option<&str>) -> Result<(), Failure> {
     {
         found = true;
         let scene = &set.scenes[condition.scene];
-        let facts = *facts[condition.scene].get_or_insert_with(|| {
-            let geometry = (scene.generator.generate)(scene.seed);
-            GeometryFacts {
-                triangles: geometry.triangles(),
-                has_normal_maps: geometry.has_normal_maps(),
-            }
-        });
+        let facts = match facts[condition.scene] {
+            Some(known) => known,
+            None => *facts[condition.scene].insert(GeometryFacts::of(
+                &scene.geometry.load().map_err(Failure::bad_input)?,
+            )),
+        };
         println!(
             "{} — {} ({}), {} lighting",
             condition.id, scene.title, scene.id, condition.lighting

@@ -6,7 +6,7 @@
 use std::fmt;
 
 use super::frame::FrameRequest;
-use crate::scene::{Ambient, Background, ToneMap};
+use crate::scene::{Ambient, Background, Geometry, ToneMap};
 
 /// One kind of pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -88,6 +88,17 @@ pub struct FramePlan {
     pub left_out: Vec<LeftOut>,
     /// Whether anything reads normals (and so whether they are stored).
     pub reads_normals: bool,
+}
+
+impl GeometryFacts {
+    /// The facts of a scene's geometry.
+    #[must_use]
+    pub fn of(geometry: &Geometry) -> Self {
+        Self {
+            triangles: geometry.triangles(),
+            has_normal_maps: geometry.has_normal_maps(),
+        }
+    }
 }
 
 impl FramePlan {

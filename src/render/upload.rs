@@ -6,7 +6,7 @@ use wgpu::util::DeviceExt;
 use super::bindings::{Bindings, Bound, uniform_of};
 use super::plan::GeometryFacts;
 use super::{Gpu, RenderError};
-use crate::scene::{Geometry, Material, Texture, TextureEncoding};
+use crate::scene::{Geometry, Material, Texture, TextureEncoding, TextureUse, Wrap};
 
 /// A scene's surfaces, ready to draw.
 pub struct GpuScene {
@@ -50,7 +50,7 @@ impl GpuScene {
             anisotropy_clamp: 4,
             ..wgpu::SamplerDescriptor::default()
         });
-        let pick = |index: Option<usize>| index.map_or(&white, |index| &textures[index]);
+        let pick = |slot: Option<TextureUse>| slot.map_or(&white, |slot| &textures[slot.texture]);
         let materials = geometry
             .materials
             .iter()
@@ -90,10 +90,7 @@ impl GpuScene {
         Ok(Self {
             meshes,
             materials,
-            facts: GeometryFacts {
-                triangles: geometry.triangles(),
-                has_normal_maps: geometry.has_normal_maps(),
-            },
+            facts: GeometryFacts::of(geometry),
             bounds_m: geometry.bounds_m(),
         })
     }
@@ -134,15 +131,9 @@ fn check(gpu: &Gpu, geometry: &Geometry) -> Result<(), RenderError> {
         }
     }
     for material in &geometry.materials {
-        let indices = [
-            material.albedo_texture,
-            material.normal_texture,
-            material.roughness_texture,
-        ];
-        if indices
-            .iter()
-            .flatten()
-            .any(|&index| index >= geometry.textures.len())
+        if material
+            .textures()
+            .any(|slot| slot.texture >= geometry.textures.len())
         {
             return broken(format!(
                 "material `{}` has a texture that is not there",
@@ -201,6 +192,7 @@ fn solid(name: &str, rgba: [u8; 4]) -> Texture {
         height_px: 1,
         rgba8: rgba.to_vec(),
         encoding: TextureEncoding::Linear,
+        wrap: [Wrap::Repeat; 2],
     }
 }
 
@@ -330,6 +322,7 @@ mod tests {
             height_px: 2,
             rgba8: [[0, 0, 0, 255], [255; 4], [255; 4], [0, 0, 0, 255]].concat(),
             encoding: TextureEncoding::Srgb,
+            wrap: [Wrap::Repeat; 2],
         };
         let levels = mip_chain(&texture);
         assert_eq!(levels.len(), 2);
@@ -354,6 +347,7 @@ mod tests {
             height_px: 3,
             rgba8: vec![200; 60],
             encoding: TextureEncoding::Linear,
+            wrap: [Wrap::Repeat; 2],
         };
         let sizes: Vec<usize> = mip_chain(&texture).iter().map(Vec::len).collect();
         assert_eq!(sizes, [60, 8, 4]);

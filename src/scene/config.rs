@@ -14,9 +14,9 @@ use glam::Vec3;
 use toml::Spanned;
 
 use self::file::{CameraFile, Coordinate, Point, SceneFile};
-use super::Camera;
 use super::lighting::Lighting;
 use super::procedural::{self, Generator};
+use super::{Camera, GeometrySource};
 use crate::config::{self, ConfigError};
 
 /// A scene that cannot be used.
@@ -38,10 +38,8 @@ pub struct SceneConfig {
     pub text: String,
     /// For people.
     pub title: String,
-    /// Seed of the geometry.
-    pub seed: u64,
     /// What makes the geometry.
-    pub generator: &'static Generator,
+    pub geometry: GeometrySource,
     /// The camera.
     pub camera: Camera,
     /// Shaded samples along one side of a pixel.
@@ -95,8 +93,10 @@ impl SceneConfig {
             path: path.to_owned(),
             text: text.to_owned(),
             title: file.title,
-            seed: file.seed,
-            generator: find_generator(&file.geometry.generator, source)?,
+            geometry: GeometrySource::Generated {
+                generator: find_generator(&file.geometry.generator, source)?,
+                seed: file.seed,
+            },
             camera: camera(&file.camera, source)?,
             supersampling: file.image.supersampling.get(),
             occlusion: OcclusionConfig {

@@ -33,6 +33,28 @@ pub struct Sun {
     pub casts_shadows: bool,
 }
 
+/// A light from one point, all round or in a cone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointLight {
+    /// Where it is, metres.
+    pub position_m: Vec3,
+    /// Linear RGB radiant intensity: irradiance on a surface that faces it at 1 m.
+    pub intensity: Vec3,
+    /// For a spot light, where it shines; `None` shines all round.
+    pub cone: Option<Cone>,
+}
+
+/// The cone of a spot light, with the smooth edge of `KHR_lights_punctual`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cone {
+    /// Unit vector from the light along the axis.
+    pub along: Vec3,
+    /// Half angle within which the light is whole, radians.
+    pub inner_rad: f32,
+    /// Half angle beyond which there is none, radians; more than `inner_rad`.
+    pub outer_rad: f32,
+}
+
 /// How linear radiance becomes a value to display.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ToneMap {
@@ -57,6 +79,10 @@ pub struct Lighting {
     pub background: Background,
     /// A directional light, if there is one.
     pub sun: Option<Sun>,
+    /// Lights from points.
+    pub points: Vec<PointLight>,
+    /// What the model's own lights are multiplied by; `None` leaves them dark.
+    pub model_lights: Option<f32>,
     /// Light from all round; present where `ambient` or `background` use it.
     pub environment: Option<Environment>,
     /// Exposure in stops: radiance is multiplied by 2 to this power before the tone map.

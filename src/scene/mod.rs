@@ -13,10 +13,14 @@ pub mod lighting;
 pub mod modelling;
 pub mod primitives;
 pub mod procedural;
+pub mod source;
 pub mod texture;
 
 pub use camera::Camera;
 pub use config::{SceneConfig, SceneError};
 pub use environment::{Environment, Irradiance};
-pub use geometry::{Geometry, Material, Mesh, Texture, TextureEncoding, Vertex};
-pub use lighting::{Ambient, Background, Lighting, Sun, ToneMap};
+pub use geometry::{
+    Geometry, Material, Mesh, ModelLights, Texture, TextureEncoding, TextureUse, Vertex, Wrap,
+};
+pub use lighting::{Ambient, Background, Cone, Lighting, PointLight, Sun, ToneMap};
+pub use source::GeometrySource;

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{Geometry, Material, Mesh, Vertex};
+use super::{Geometry, Material, Mesh, ModelLights, Vertex};
 
 /// A parallelogram with corner `origin_m` and edges `u_m`, `v_m`; it faces
 /// `u_m × v_m`. Texture coordinates are 0 to 1 along the edges.
@@ -63,6 +63,7 @@ pub fn of_one_material(material: Material, meshes: Vec<Mesh>) -> Geometry {
         meshes,
         materials: vec![material],
         textures: Vec::new(),
+        lights: ModelLights::default(),
     }
 }
 

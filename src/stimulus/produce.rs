@@ -9,6 +9,7 @@ use super::set::{SetCondition, StimulusSet};
 use crate::digest;
 use crate::render::technique::Settings;
 use crate::render::{GpuScene, RenderError, Renderer};
+use crate::scene::SceneError;
 
 /// A set that could not be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -16,6 +17,9 @@ pub enum ProduceError {
     /// The frame.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// The scene.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
     /// The files.
     #[error(transparent)]
     Stimulus(#[from] StimulusError),
@@ -66,7 +70,7 @@ pub fn produce(
             continue;
         }
         progress(&format!("scene {}", scene.id));
-        let geometry = (scene.generator.generate)(scene.seed);
+        let geometry = scene.geometry.load()?;
         let mut producer = Producer {
             renderer,
             set,

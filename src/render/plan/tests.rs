@@ -20,6 +20,8 @@ fn request(technique: &str) -> FrameRequest {
             ambient: Ambient::Constant(Vec3::ONE),
             background: Background::Colour(Vec3::ONE),
             sun: None,
+            points: Vec::new(),
+            model_lights: None,
             environment: None,
             exposure_ev: 0.0,
             tone_map: ToneMap::None,

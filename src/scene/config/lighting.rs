@@ -53,6 +53,8 @@ pub(super) fn resolve(
             .sun
             .map(|file| sun(&file, &field("sun"), source))
             .transpose()?,
+        points: Vec::new(),
+        model_lights: None,
         environment: environment
             .filter(|_| ambient == Ambient::Environment || background == Background::Environment),
         ambient,

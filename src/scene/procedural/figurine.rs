@@ -11,7 +11,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::Generator;
-use crate::scene::geometry::{Geometry, Material, Mesh, Vertex};
+use crate::scene::geometry::{Geometry, Material, Mesh, ModelLights, Vertex};
 use crate::scene::modelling::Noise;
 use crate::scene::modelling::math::{perpendicular, smoothstep};
 use crate::scene::modelling::polygonise::polygonise;
@@ -46,6 +46,7 @@ fn generate(seed: u64) -> Geometry {
             ..Material::default()
         }],
         textures: Vec::new(),
+        lights: ModelLights::default(),
     }
 }
 

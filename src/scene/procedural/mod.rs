@@ -86,13 +86,8 @@ mod tests {
                 );
             }
             for material in &scene.materials {
-                for texture in [
-                    material.albedo_texture,
-                    material.normal_texture,
-                    material.roughness_texture,
-                ] {
-                    assert!(texture.is_none_or(|i| i < scene.textures.len()));
-                }
+                let mut textures = material.textures();
+                assert!(textures.all(|t| t.texture < scene.textures.len()));
             }
             for texture in &scene.textures {
                 assert_eq!(

@@ -8,7 +8,7 @@ pub mod plain;
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::geometry::{Geometry, Material, Texture, TextureEncoding};
+use super::geometry::{Geometry, Material, Texture, TextureEncoding, Wrap};
 use super::modelling::math;
 
 /// What a surface is like at one point.
@@ -115,6 +115,7 @@ impl Recipe {
                 .flat_map_iter(pixel)
                 .collect(),
             encoding,
+            wrap: [Wrap::Repeat; 2],
         };
         let encoder = SrgbEncoder::new();
         let albedo = image("albedo", TextureEncoding::Srgb, &|i| {
@@ -149,10 +150,10 @@ pub fn add_materials(geometry: &mut Geometry, recipes: &[Recipe]) -> Vec<Finish>
             geometry.materials.push(Material {
                 name: recipe.name.to_owned(),
                 albedo: [1.0; 3],
-                albedo_texture: Some(first),
-                normal_texture: Some(first + 1),
+                albedo_texture: Some(first.into()),
+                normal_texture: Some((first + 1).into()),
                 roughness: 1.0,
-                roughness_texture: Some(first + 2),
+                roughness_texture: Some((first + 2).into()),
                 ..Material::default()
             });
             Finish {
