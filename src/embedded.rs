@@ -63,7 +63,18 @@ mod tests {
     use super::*;
     use crate::protocol::Protocol;
     use crate::render::plan::{FramePlan, GeometryFacts};
+    use crate::render::technique::Settings;
     use crate::stimulus::StimulusSet;
+    use crate::stimulus::set::SetCondition;
+
+    /// What the shipped scenes are: normal maps, no lamps, nothing baked, sky in view.
+    const FACTS: GeometryFacts = GeometryFacts {
+        triangles: 1,
+        has_normal_maps: true,
+        emits: false,
+        has_baked_occlusion: false,
+        uncovered: Some(true),
+    };
 
     #[test]
     fn the_embedded_study_is_whole() {
@@ -131,26 +142,33 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         unpack(dir.path()).unwrap();
         let set = StimulusSet::load(&dir.path().join(STIMULI)).unwrap();
-        let facts = GeometryFacts {
-            triangles: 1,
-            has_normal_maps: true,
+        let passes_of = |condition: &SetCondition, technique: &Settings| -> Vec<&str> {
+            let plan = FramePlan::new(&set.request(condition, technique), FACTS);
+            plan.passes.iter().map(|pass| pass.kind.name()).collect()
         };
         for condition in &set.conditions {
             for technique in [&condition.first, &condition.second] {
                 let mut expected = vec!["geometry"];
                 if condition.validity == "high" {
-                    expected.insert(0, "shadow-map");
+                    expected.extend(["shadow-map", "shadow-filter"]);
                 }
                 if technique.label != "none" {
-                    expected.extend(["occlusion-geometry", "occlusion"]);
-                    expected.extend(["blur-rows", "blur-columns"]);
+                    expected.extend(["occlusion", "blur-rows", "blur-columns"]);
                 }
-                expected.extend(["lighting", "output"]);
-                let plan = FramePlan::new(&set.request(condition, technique), facts);
-                let found: Vec<&str> = plan.passes.iter().map(|pass| pass.kind.name()).collect();
+                expected.extend(match condition.validity.as_str() {
+                    "low" => vec!["shade"],
+                    "moderate" => vec!["ambient", "skybox", "output"],
+                    _ => vec!["ambient", "sun", "skybox", "output"],
+                });
+                let found = passes_of(condition, technique);
                 assert_eq!(found, expected, "{} {}", condition.id, technique.label);
             }
         }
+        // The dragon runs at most half the passes of the atrium in full light.
+        let of = |id: &str| set.conditions.iter().find(|c| c.id == id).unwrap();
+        let dragon = passes_of(of("dragon-low"), &of("dragon-low").second);
+        let atrium = passes_of(of("sponza-high-h2"), &of("sponza-high-h2").second);
+        assert!(2 * dragon.len() <= atrium.len(), "{dragon:?} {atrium:?}");
     }
 
     #[test]

@@ -27,6 +27,10 @@ pub struct RenderArgs {
     /// Print which passes each image runs, which it leaves out, and why; draw nothing.
     #[arg(long)]
     explain: bool,
+    /// Run every effect, whether the scene calls for it or not: the images stay the same, byte
+    /// for byte, and the manifest says what each effect costs.
+    #[arg(long)]
+    all_effects: bool,
     /// Use the graphics adapter whose name contains this.
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
@@ -58,10 +62,11 @@ pub fn run(args: &RenderArgs, verbosity: Verbosity) -> Result<(), Failure> {
         Some(PrecisionArg::Thesis) => set.precision = Precision::Thesis,
         None => {}
     }
-    if args.explain {
-        return explain(&set, args.only.as_deref());
-    }
+    set.all_effects = args.all_effects;
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&set));
+    if args.explain {
+        return explain(&set, args.only.as_deref(), &folder);
+    }
     let drawn = draw(
         &set,
         &folder,
@@ -178,8 +183,20 @@ impl StopWatch {
     }
 }
 
-fn explain(set: &StimulusSet, only: Option<&str>) -> Result<(), Failure> {
+/// Prints the plan of every image; with what its passes took, where `folder` has the set as
+/// it was drawn.
+fn explain(set: &StimulusSet, only: Option<&str>, folder: &Path) -> Result<(), Failure> {
     let mut found = false;
+    let drawn = Manifest::load(folder)
+        .ok()
+        .filter(|manifest| manifest.config_sha256 == set.sha256);
+    if let Some(adapter) = drawn.as_ref().and_then(|drawn| drawn.adapter.as_ref()) {
+        println!(
+            "costs as drawn in {} on {}\n",
+            folder.display(),
+            adapter.name
+        );
+    }
     let mut facts: Vec<Option<GeometryFacts>> = vec![None; set.scenes.len()];
     for condition in set
         .conditions
@@ -199,13 +216,17 @@ fn explain(set: &StimulusSet, only: Option<&str>) -> Result<(), Failure> {
             condition.id, scene.title, scene.id, condition.lighting
         );
         for technique in [&condition.first, &condition.second] {
+            let ran = drawn.as_ref().map_or(&[][..], |drawn| {
+                drawn.passes_of(&condition.id, &technique.label)
+            });
+            let facts = GeometryFacts {
+                // Whether surfaces cover every pixel is known of a frame that was drawn.
+                uncovered: (!ran.is_empty()).then(|| ran.iter().any(|r| r.pass == "skybox")),
+                ..facts
+            };
             let plan = FramePlan::new(&set.request(condition, technique), facts);
-            println!(
-                " {} ({} passes; + runs, - is left out)",
-                technique.label,
-                plan.passes.len()
-            );
-            print!("{plan}");
+            println!("{}", technique.label);
+            print!("{}", plan.tree(ran));
         }
         println!();
     }

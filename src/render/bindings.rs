@@ -49,6 +49,14 @@ impl<'a> Bindings<'a> {
         self.add(binding, kind, wgpu::BindingResource::TextureView(view))
     }
 
+    /// A texture that is read texel by texel, where there is one.
+    pub(super) fn texture_if_any(self, binding: u32, view: Option<&'a wgpu::TextureView>) -> Self {
+        match view {
+            Some(view) => self.texture(binding, view, false),
+            None => self,
+        }
+    }
+
     pub(super) fn sampler(
         self,
         binding: u32,

@@ -3,8 +3,8 @@
 use glam::{Mat4, Vec3};
 
 use super::plan::FramePlan;
-use super::technique::Settings;
-use crate::scene::{Ambient, Background, Camera, Lighting, SceneConfig};
+use super::technique::{Settings, TECHNIQUES};
+use crate::scene::{Camera, Lighting, PointLight, SceneConfig, Sun};
 
 /// How finely normals and occlusion are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -42,6 +42,11 @@ pub struct FrameRequest {
     pub precision: Precision,
     /// Seed of kernels and noise.
     pub seed: u64,
+    /// Whether occlusion that the model's author baked into textures counts too.
+    pub baked_occlusion: bool,
+    /// Whether every effect runs, at weight nought where the scene does not call for it.
+    /// The image is the same, byte for byte; the time is not.
+    pub all_effects: bool,
 }
 
 impl FrameRequest {
@@ -65,7 +70,40 @@ impl FrameRequest {
             blur_plane_m: scene.occlusion.blur_plane_m,
             precision: Precision::Full,
             seed,
+            baked_occlusion: false,
+            all_effects: false,
         }
+    }
+
+    /// The request with whatever `all_effects` runs beside what is asked for: each of it
+    /// there, and dark or without weight.
+    pub(super) fn filled_in(&self) -> Self {
+        let mut filled = self.clone();
+        if !self.all_effects {
+            return filled;
+        }
+        let shaded = || {
+            TECHNIQUES
+                .iter()
+                .find(|technique| technique.shader.is_some())
+        };
+        if let (None, Some(technique)) = (self.occlusion.technique.shader, shaded()) {
+            filled.occlusion = Settings::defaults(technique, technique.name);
+        }
+        let lighting = &mut filled.lighting;
+        lighting.sun.get_or_insert(Sun {
+            towards: Vec3::Y,
+            irradiance: Vec3::ZERO,
+            casts_shadows: true,
+        });
+        if lighting.points.is_empty() {
+            lighting.points.push(PointLight {
+                position_m: Vec3::ZERO,
+                intensity: Vec3::ZERO,
+                cone: None,
+            });
+        }
+        filled
     }
 
     pub(super) fn aspect(&self) -> f32 {
@@ -94,7 +132,9 @@ pub(super) struct FrameUniform {
     far_m: f32,
     exposure: f32,
     size_px: [f32; 2],
-    occlusion_size_px: [f32; 2],
+    image_px: [f32; 2],
+    samples: i32,
+    padding: [i32; 3],
 }
 
 impl FrameUniform {
@@ -112,119 +152,21 @@ impl FrameUniform {
             far_m: camera.far_m,
             exposure: request.lighting.exposure_ev.exp2(),
             size_px: [width_px as f32, height_px as f32],
-            occlusion_size_px: [request.width_px as f32, request.height_px as f32],
+            image_px: [request.width_px as f32, request.height_px as f32],
+            samples: request.supersampling as i32,
+            padding: [0; 3],
         }
     }
-}
 
-/// The WGSL struct `Light`.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-pub(super) struct LightUniform {
-    irradiance: [[f32; 4]; 9],
-    environment: [[f32; 4]; 6],
-    constant_ambient: [f32; 4],
-    background: [f32; 4],
-    sun_towards: [f32; 4],
-    sun_irradiance: [f32; 4],
-    shadow_from_world: Mat4,
-    shadow_texel: [f32; 4],
-}
-
-impl LightUniform {
-    pub(super) fn new(lighting: &Lighting, shadow: Option<ShadowView>) -> Self {
-        let mut uniform: Self = bytemuck::Zeroable::zeroed();
-        if let Some(environment) = &lighting.environment {
-            let irradiance = crate::scene::Irradiance::project(|d| environment.radiance(d));
-            uniform.irradiance = irradiance.coefficients.map(pad);
-            uniform.environment = environment.axes.map(pad);
-        }
-        if let Ambient::Constant(radiance) = lighting.ambient {
-            uniform.constant_ambient = pad(radiance);
-        }
-        if let Background::Colour(radiance) = lighting.background {
-            uniform.background = pad(radiance);
-        }
-        if let Some(sun) = &lighting.sun {
-            uniform.sun_towards = pad(sun.towards);
-            uniform.sun_irradiance = pad(sun.irradiance);
-        }
-        if let Some(shadow) = shadow {
-            uniform.shadow_from_world = shadow.from_world;
-            uniform.shadow_texel = [
-                shadow.texel_m,
-                1.0 / SHADOW_SIZE_PX as f32,
-                shadow.bias,
-                0.0,
-            ];
-        }
-        uniform
+    /// The same scene seen by its directional light.
+    pub(super) fn from_light(mut self, light_from_world: Mat4) -> Self {
+        self.view_projection = light_from_world;
+        self
     }
-}
-
-fn pad(v: Vec3) -> [f32; 4] {
-    v.extend(0.0).to_array()
 }
 
 /// Side of the shadow map.
 pub(super) const SHADOW_SIZE_PX: u32 = 4096;
-
-/// How a directional light sees the scene: an orthographic box round all of it.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct ShadowView {
-    /// World to the light's clip space, depth 0 (near the light) to 1.
-    pub from_world: Mat4,
-    /// Side of a texel, metres.
-    texel_m: f32,
-    /// A hundredth of a texel's depth: what rounding may move a depth by.
-    bias: f32,
-}
-
-impl ShadowView {
-    /// A view along `towards` (unit, to the light) that holds the box `bounds_m`.
-    pub(super) fn new(towards: Vec3, bounds_m: (Vec3, Vec3)) -> Self {
-        let (low, high) = bounds_m;
-        let centre = (low + high) / 2.0;
-        let up = if towards.y.abs() > 0.99 {
-            Vec3::X
-        } else {
-            Vec3::Y
-        };
-        let view = glam::camera::rh::view::look_to_mat4(centre, -towards, up);
-        let (mut view_low, mut view_high) = (Vec3::MAX, Vec3::MIN);
-        for corner in 0..8_u8 {
-            let pick = |bit: u8, axis: usize| {
-                if corner & bit == 0 {
-                    low[axis]
-                } else {
-                    high[axis]
-                }
-            };
-            let seen = view.transform_point3(Vec3::new(pick(1, 0), pick(2, 1), pick(4, 2)));
-            view_low = view_low.min(seen);
-            view_high = view_high.max(seen);
-        }
-        // A margin keeps the filter's taps on the map.
-        let margin = (view_high - view_low).max_element().max(1e-3) * 0.005;
-        view_low -= margin;
-        view_high += margin;
-        let projection = glam::camera::rh::proj::directx::orthographic(
-            view_low.x,
-            view_high.x,
-            view_low.y,
-            view_high.y,
-            -view_high.z,
-            -view_low.z,
-        );
-        let extent = view_high - view_low;
-        let texel_m = extent.x.max(extent.y) / SHADOW_SIZE_PX as f32;
-        Self {
-            from_world: projection * view,
-            texel_m,
-            bias: 0.1 * texel_m / extent.z,
-        }
-    }
-}
 
 /// Formats of the frame's targets.
 #[derive(Debug, Clone, Copy)]
@@ -238,6 +180,8 @@ impl Formats {
     pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
     pub(super) const DEPTH_TEST: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
     pub(super) const RADIANCE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+    pub(super) const EMISSION: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+    pub(super) const VISIBILITY: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
     pub(super) const OUTPUT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
     pub(super) fn of(precision: Precision) -> Self {
@@ -262,38 +206,4 @@ pub(super) fn normals_part(plan: &FramePlan, precision: Precision) -> (&'static 
         (true, Precision::Thesis) => include_str!("shaders/normals_thesis.wgsl"),
     };
     ("normals", text)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_shadow_view_holds_the_whole_box() {
-        let bounds = (Vec3::new(-3.0, 0.0, -10.0), Vec3::new(5.0, 12.0, 7.0));
-        for towards in [Vec3::Y, Vec3::new(0.5, 0.7, -0.3).normalize(), Vec3::X] {
-            let view = ShadowView::new(towards, bounds);
-            for corner in 0..8_u8 {
-                let pick = |bit: u8, axis: usize| {
-                    if corner & bit == 0 {
-                        bounds.0[axis]
-                    } else {
-                        bounds.1[axis]
-                    }
-                };
-                let clip =
-                    view.from_world
-                        .project_point3(Vec3::new(pick(1, 0), pick(2, 1), pick(4, 2)));
-                assert!(clip.x.abs() < 1.0 && clip.y.abs() < 1.0, "{clip}");
-                assert!((0.0..=1.0).contains(&clip.z), "{clip}");
-            }
-        }
-    }
-
-    #[test]
-    fn nearer_the_light_is_a_smaller_depth() {
-        let view = ShadowView::new(Vec3::Y, (Vec3::ZERO, Vec3::splat(2.0)));
-        let depth = |y: f32| view.from_world.project_point3(Vec3::new(1.0, y, 1.0)).z;
-        assert!(depth(1.5) < depth(0.5));
-    }
 }

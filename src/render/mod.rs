@@ -9,11 +9,18 @@ mod bindings;
 pub mod device;
 mod error;
 mod frame;
+mod light;
+mod material;
+mod mips;
 mod pass;
 pub mod plan;
 mod readback;
+mod recorder;
 mod renderer;
 mod shader;
+mod shading;
+mod shadow_view;
+mod surfaces;
 mod targets;
 pub mod technique;
 mod timestamps;
@@ -23,8 +30,10 @@ pub use device::Gpu;
 pub use error::RenderError;
 pub use frame::{FrameRequest, Precision};
 pub use readback::{FloatImage, LinearDepth};
-pub use renderer::{RenderedFrame, Renderer};
+pub use renderer::{RenderedFrame, Renderer, View};
 pub use upload::GpuScene;
 
+#[cfg(test)]
+mod testing;
 #[cfg(test)]
 mod tests;

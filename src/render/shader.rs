@@ -8,6 +8,17 @@ const PARTS: &[(&str, &str)] = &[
     ("fullscreen", include_str!("shaders/common/fullscreen.wgsl")),
     ("octahedral", include_str!("shaders/common/octahedral.wgsl")),
     ("occlusion", include_str!("shaders/common/occlusion.wgsl")),
+    ("display", include_str!("shaders/display.wgsl")),
+    ("light", include_str!("shaders/lighting/light.wgsl")),
+    ("place", include_str!("shaders/lighting/place.wgsl")),
+    ("point", include_str!("shaders/lighting/point.wgsl")),
+    ("brdf", include_str!("shaders/lighting/brdf.wgsl")),
+    ("diffuse", include_str!("shaders/lighting/diffuse.wgsl")),
+    ("radiance", include_str!("shaders/lighting/radiance.wgsl")),
+    (
+        "environment_radiance",
+        include_str!("shaders/lighting/environment_radiance.wgsl"),
+    ),
 ];
 
 /// Composes a shader. `variant` parts shadow the shared ones (and may use them).

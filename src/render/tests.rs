@@ -5,9 +5,10 @@ use std::sync::OnceLock;
 use glam::Vec3;
 
 use super::technique::{Settings, TECHNIQUES};
+use super::testing::{brightest, request};
 use super::*;
 use crate::scene::primitives::{cuboid, of_one_material, quad};
-use crate::scene::{Ambient, Background, Camera, Geometry, Lighting, Material, Mesh, Sun, ToneMap};
+use crate::scene::{Ambient, Background, Geometry, Material, Mesh, Sun};
 
 fn renderer() -> &'static Renderer {
     static RENDERER: OnceLock<Renderer> = OnceLock::new();
@@ -22,37 +23,6 @@ fn matte(albedo: [f32; 3]) -> Material {
         specular: 0.0,
         roughness: 1.0,
         ..Material::default()
-    }
-}
-
-/// A request for a scene seen from 4 m away at eye height, in constant white light.
-fn request(technique: &str) -> FrameRequest {
-    FrameRequest {
-        width_px: 160,
-        height_px: 120,
-        supersampling: 1,
-        camera: Camera {
-            position_m: Vec3::new(0.0, 1.5, 4.0),
-            target_m: Vec3::new(0.0, 0.8, 0.0),
-            vertical_fov_rad: 0.9,
-            near_m: 0.05,
-            far_m: 50.0,
-        },
-        lighting: Lighting {
-            ambient: Ambient::Constant(Vec3::ONE),
-            background: Background::Colour(Vec3::ONE),
-            sun: None,
-            points: Vec::new(),
-            model_lights: None,
-            environment: None,
-            exposure_ev: 0.0,
-            tone_map: ToneMap::None,
-        },
-        occlusion: Settings::from_label(technique).unwrap(),
-        blur_radius_px: 4,
-        blur_plane_m: 0.05,
-        precision: Precision::Full,
-        seed: 2010,
     }
 }
 
@@ -134,7 +104,7 @@ fn a_surface_in_constant_light_has_its_albedo() {
     );
     assert!(frame.occlusion.is_none());
     let names: Vec<&str> = frame.passes.iter().map(|pass| pass.pass.as_str()).collect();
-    assert_eq!(names, ["geometry", "lighting", "output"]);
+    assert_eq!(names, ["geometry", "shade"]);
 }
 
 #[test]
@@ -356,4 +326,249 @@ fn what_does_not_fit_is_refused_by_name() {
     );
     let message = Gpu::open(Some("no such adapter")).unwrap_err().to_string();
     assert!(message.contains("no such adapter"), "{message}");
+}
+
+/// A lamp that shines, a curtain with a hole, a mirror and a floor: every effect has
+/// something to do.
+fn everything() -> Geometry {
+    let lamp = Material {
+        emission: [2.0, 1.0, 0.5],
+        ..matte([0.1; 3])
+    };
+    let mirror = Material {
+        roughness: 0.2,
+        metallic: 1.0,
+        ..matte([0.9; 3])
+    };
+    let mut geometry = of_one_material(matte([0.6, 0.5, 0.4]), vec![floor()]);
+    for (material, mesh) in [
+        (
+            lamp,
+            cuboid(
+                "lamp",
+                Vec3::new(-1.2, 0.0, -0.4),
+                Vec3::new(-0.8, 0.5, 0.0),
+            ),
+        ),
+        (
+            mirror,
+            cuboid(
+                "mirror",
+                Vec3::new(0.5, 0.0, -0.6),
+                Vec3::new(1.2, 1.0, 0.1),
+            ),
+        ),
+    ] {
+        geometry.materials.push(material);
+        geometry.meshes.push(Mesh {
+            material: geometry.materials.len() - 1,
+            ..mesh
+        });
+    }
+    geometry
+}
+
+/// Leaving a pass out is no approximation: run at weight nought, it changes no byte.
+#[test]
+fn running_every_effect_changes_no_byte() {
+    let scenes = [floor_and_wall([0.7, 0.5, 0.3]), everything()];
+    let mut requests = Vec::new();
+    for technique in ["none", "crytek24", "blizzard8"] {
+        requests.extend([request(technique), brightest(technique)]);
+        let mut shadowless = brightest(technique);
+        shadowless.lighting.sun.as_mut().unwrap().casts_shadows = false;
+        let mut plain = brightest(technique);
+        plain.lighting.reflections = false;
+        plain.lighting.background = Background::Colour(Vec3::new(0.18, 0.3, 0.7));
+        plain.lighting.points.clear();
+        let mut unblurred = request(technique);
+        (unblurred.supersampling, unblurred.blur_radius_px) = (2, 0);
+        unblurred.lighting.background = Background::Colour(Vec3::new(0.18, 0.3, 0.7));
+        requests.extend([shadowless, plain, unblurred]);
+    }
+    for geometry in &scenes {
+        for request in &requests {
+            let all = FrameRequest {
+                all_effects: true,
+                ..request.clone()
+            };
+            let (asked, all) = (draw(geometry, request), draw(geometry, &all));
+            assert_eq!(all.passes.len(), 14 - 1, "all but the shade pass");
+            assert!(asked.passes.len() <= all.passes.len());
+            assert!(
+                asked.picture == all.picture,
+                "{} {:?}",
+                request.occlusion.label,
+                request.lighting
+            );
+        }
+    }
+}
+
+/// Surfaces and shadows drawn for one image serve the next, byte for byte.
+#[test]
+fn sharing_between_images_changes_no_byte() {
+    let geometry = everything();
+    let scene = renderer().upload(&geometry).unwrap();
+    let mut view = renderer().view(&scene);
+    let mut unlit = brightest("crytek24");
+    unlit.lighting.sun = None;
+    let mut turned = brightest("blizzard8");
+    turned.lighting.sun.as_mut().unwrap().towards = Vec3::Y;
+    for (index, request) in [
+        request("none"),
+        brightest("none"),
+        brightest("blizzard8"),
+        unlit,
+        brightest("none"),
+        turned,
+    ]
+    .iter()
+    .enumerate()
+    {
+        let shared = view.render(request).unwrap();
+        assert!(
+            shared.picture == draw(&geometry, request).picture,
+            "image {index}"
+        );
+        let is_shared = |pass: &str| shared.passes.iter().any(|p| p.pass == pass && p.shared);
+        assert_eq!(is_shared("geometry"), index >= 2, "image {index}");
+        assert_eq!(
+            is_shared("shadow-map"),
+            index == 2 || index == 4,
+            "image {index}"
+        );
+    }
+}
+
+/// A wall across the whole view leaves no pixel to the sky.
+#[test]
+fn no_skybox_where_surfaces_cover_every_pixel() {
+    let request = brightest("none");
+    let has_sky = |geometry: &Geometry| {
+        let frame = draw(geometry, &request);
+        frame.passes.iter().any(|pass| pass.pass == "skybox")
+    };
+    assert!(has_sky(&floor_and_wall([0.5; 3])));
+    let wall = quad(
+        "wall",
+        Vec3::new(-9.0, -9.0, 1.0),
+        Vec3::X * 18.0,
+        Vec3::Y * 18.0,
+    );
+    assert!(!has_sky(&of_one_material(matte([0.5; 3]), vec![wall])));
+}
+
+/// Inverse square and Lambert: intensity π/2 from 0.5 m straight above albedo 0.8 is an
+/// irradiance of 2π and a radiance of 1.6; from 1 m it is a quarter of that.
+#[test]
+fn a_point_light_falls_with_the_square() {
+    let mut request = request("none");
+    request.lighting.ambient = Ambient::Constant(Vec3::ZERO);
+    let spot = Vec3::new(0.3, 0.0, 1.0);
+    for (height_m, cone, expected) in [
+        (1.0, None, 0.4),
+        (2.0, None, 0.1),
+        (1.0, Some((Vec3::NEG_Y, 0.2, 0.4)), 0.4),
+        (1.0, Some((Vec3::X, 0.2, 0.4)), 0.0),
+    ] {
+        request.lighting.points = vec![crate::scene::PointLight {
+            position_m: spot + Vec3::Y * height_m,
+            intensity: Vec3::splat(std::f32::consts::FRAC_PI_2),
+            cone: cone.map(|(along, inner_rad, outer_rad)| crate::scene::Cone {
+                along,
+                inner_rad,
+                outer_rad,
+            }),
+        }];
+        let frame = draw(&of_one_material(matte([0.8; 3]), vec![floor()]), &request);
+        assert_level(rgb(&frame, pixel_of(&request, spot)), expected);
+    }
+}
+
+#[test]
+fn emission_and_unlit_surfaces_show_their_own_light() {
+    let request = request("none");
+    let spot = pixel_of(&request, Vec3::new(0.3, 0.0, 1.0));
+    let lamp = Material {
+        emission: [0.3; 3],
+        ..matte([0.2; 3])
+    };
+    let frame = draw(&of_one_material(lamp, vec![floor()]), &request);
+    assert_level(rgb(&frame, spot), 0.5);
+    let unlit = Material {
+        unlit: true,
+        ..matte([0.35; 3])
+    };
+    let mut dark = request.clone();
+    dark.lighting.ambient = Ambient::Constant(Vec3::ZERO);
+    let frame = draw(&of_one_material(unlit, vec![floor()]), &dark);
+    assert_level(rgb(&frame, spot), 0.35);
+}
+
+/// A texture of two columns, one opaque and one not: where alpha is below the cutoff the
+/// floor shows nothing, and light falls through.
+#[test]
+fn an_alpha_mask_cuts_holes() {
+    use crate::scene::{Texture, TextureEncoding, Wrap};
+    let mut request = request("none");
+    request.lighting.background = Background::Colour(Vec3::splat(0.9));
+    let mut geometry = of_one_material(matte([0.2; 3]), vec![floor()]);
+    geometry.textures.push(Texture {
+        name: String::from("half"),
+        width_px: 2,
+        height_px: 1,
+        rgba8: vec![255, 255, 255, 255, 255, 255, 255, 0],
+        encoding: TextureEncoding::Srgb,
+        wrap: [Wrap::Clamp; 2],
+    });
+    geometry.materials[0].albedo_texture = Some(0.into());
+    geometry.materials[0].alpha_cutoff = Some(0.5);
+    let frame = draw(&geometry, &request);
+    // The floor's texture coordinates run from 0 to 1 along x.
+    assert_level(
+        rgb(&frame, pixel_of(&request, Vec3::new(-1.0, 0.0, 1.0))),
+        0.2,
+    );
+    assert_level(
+        rgb(&frame, pixel_of(&request, Vec3::new(1.0, 0.0, 1.0))),
+        0.9,
+    );
+    // Moved by half a texture, the hole is everywhere on the right and on the left.
+    let moved = crate::scene::TextureUse {
+        texture: 0,
+        transform: glam::Affine2::from_translation(glam::Vec2::new(0.5, 0.0)),
+    };
+    geometry.materials[0].albedo_texture = Some(moved);
+    let frame = draw(&geometry, &request);
+    assert_level(
+        rgb(&frame, pixel_of(&request, Vec3::new(-0.5, 0.0, 1.0))),
+        0.9,
+    );
+}
+
+/// Baked occlusion counts where a scene asks for it, and not otherwise.
+#[test]
+fn baked_occlusion_is_used_when_asked_for() {
+    use crate::scene::{Texture, TextureEncoding, Wrap};
+    let mut request = request("none");
+    let mut geometry = of_one_material(matte([0.8; 3]), vec![floor()]);
+    geometry.textures.push(Texture {
+        name: String::from("baked"),
+        width_px: 1,
+        height_px: 1,
+        rgba8: vec![128, 0, 0, 255],
+        encoding: TextureEncoding::Linear,
+        wrap: [Wrap::Repeat; 2],
+    });
+    geometry.materials[0].occlusion_texture = Some(0.into());
+    let spot = pixel_of(&request, Vec3::new(0.3, 0.0, 1.0));
+    assert_level(rgb(&draw(&geometry, &request), spot), 0.8);
+    request.baked_occlusion = true;
+    assert_level(rgb(&draw(&geometry, &request), spot), 0.8 * 128.0 / 255.0);
+    geometry.materials[0].occlusion_strength = 0.5;
+    assert_level(
+        rgb(&draw(&geometry, &request), spot),
+        0.8 * (1.0 + 128.0 / 255.0) / 2.0,
+    );
 }

@@ -77,6 +77,8 @@ pub struct Lighting {
     pub ambient: Ambient,
     /// Where no surface is.
     pub background: Background,
+    /// Whether surfaces mirror the environment, by their roughness.
+    pub reflections: bool,
     /// A directional light, if there is one.
     pub sun: Option<Sun>,
     /// Lights from points.

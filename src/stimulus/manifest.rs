@@ -88,6 +88,9 @@ pub struct PassRecord {
     pub pass: String,
     /// GPU time, milliseconds; absent where the adapter has no timestamps.
     pub gpu_ms: Option<f64>,
+    /// Whether it was drawn for an earlier image of the scene and used again.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub shared: bool,
 }
 
 /// A folder of stimuli that cannot be used.
@@ -162,6 +165,17 @@ impl Manifest {
             )));
         }
         Ok(manifest)
+    }
+
+    /// What ran for a condition's image of one technique; nothing where it is not there.
+    #[must_use]
+    pub fn passes_of(&self, condition: &str, technique: &str) -> &[PassRecord] {
+        self.pairs
+            .iter()
+            .filter(|pair| pair.condition == condition)
+            .flat_map(|pair| [&pair.first, &pair.second])
+            .find(|image| image.technique == technique)
+            .map_or(&[], |image| &image.passes)
     }
 
     /// Every image, in the set's order, first before second.

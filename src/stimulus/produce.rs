@@ -8,7 +8,7 @@ use super::manifest::{self, ImageRecord, Manifest, PairRecord, StimulusError};
 use super::set::{SetCondition, StimulusSet};
 use crate::digest;
 use crate::render::technique::Settings;
-use crate::render::{GpuScene, RenderError, Renderer};
+use crate::render::{RenderError, Renderer, View};
 use crate::scene::SceneError;
 
 /// A set that could not be drawn.
@@ -71,14 +71,14 @@ pub fn produce(
         }
         progress(&format!("scene {}", scene.id));
         let geometry = scene.geometry.load()?;
+        let surfaces = renderer.upload(&geometry)?;
+        drop(geometry);
         let mut producer = Producer {
-            renderer,
             set,
             folder,
-            surfaces: renderer.upload(&geometry)?,
+            view: renderer.view(&surfaces),
             drawn: BTreeMap::new(),
         };
-        drop(geometry);
         for condition in conditions {
             pairs.insert(condition.id.as_str(), producer.pair(condition, progress)?);
         }
@@ -123,10 +123,9 @@ pub fn produce(
 }
 
 struct Producer<'a> {
-    renderer: &'a Renderer,
     set: &'a StimulusSet,
     folder: &'a Path,
-    surfaces: GpuScene,
+    view: View<'a>,
     /// Images by lighting and technique, as PNG bytes.
     drawn: BTreeMap<String, (Vec<u8>, ImageRecord)>,
 }
@@ -177,14 +176,12 @@ impl Producer<'_> {
     }
 
     fn draw(
-        &self,
+        &mut self,
         condition: &SetCondition,
         technique: &Settings,
         path: &Path,
     ) -> Result<(Vec<u8>, ImageRecord), ProduceError> {
-        let frame = self
-            .renderer
-            .render(&self.surfaces, &self.set.request(condition, technique))?;
+        let frame = self.view.render(&self.set.request(condition, technique))?;
         let bytes = files::encode_png(path, &frame.picture)?;
         let record = ImageRecord {
             file: PathBuf::new(),

@@ -34,6 +34,8 @@ pub struct StimulusSet {
     pub size_px: (u32, u32),
     /// How finely buffers are stored.
     pub precision: Precision,
+    /// Whether every effect runs, called for or not.
+    pub all_effects: bool,
     /// The scenes, each once.
     pub scenes: Vec<SceneConfig>,
     /// The conditions, in the file's order.
@@ -197,6 +199,7 @@ impl StimulusSet {
             seed: file.seed,
             size_px: (file.width_px.get(), file.height_px.get()),
             precision: file.precision,
+            all_effects: false,
             sha256: digest::sha256_hex(texts.join("\0").as_bytes()),
             scenes: loader.scenes,
             conditions,
@@ -214,6 +217,7 @@ impl StimulusSet {
         let mut request =
             FrameRequest::new(scene, lighting, technique.clone(), self.size_px, self.seed);
         request.precision = self.precision;
+        request.all_effects = self.all_effects;
         request
     }
 }

@@ -2,7 +2,7 @@
 
 use super::super::Gpu;
 use super::super::bindings::{Bindings, uniform_of};
-use super::Fullscreen;
+use super::fullscreen::{Fullscreen, Onto};
 
 /// The WGSL struct `Blur`.
 #[repr(C)]
@@ -51,6 +51,7 @@ pub(in super::super) fn blur(
         variants: &[inputs.normals_part],
         fragment: "fs_blur",
         bound: &bound,
+        onto: Onto::Cleared(wgpu::Color::TRANSPARENT),
     }
     .draw(gpu, encoder, target);
 }

@@ -5,7 +5,7 @@ use wgpu::util::DeviceExt;
 use super::super::Gpu;
 use super::super::bindings::{Bindings, uniform_of};
 use super::super::technique::{self, Settings};
-use super::Fullscreen;
+use super::fullscreen::{Fullscreen, Onto};
 
 /// What every technique is given.
 pub(in super::super) struct OcclusionInputs<'a> {
@@ -64,6 +64,7 @@ pub(in super::super) fn occlusion(
         variants: &variants,
         fragment: "fs_occlusion",
         bound: &bound,
+        onto: Onto::Cleared(wgpu::Color::TRANSPARENT),
     }
     .draw(gpu, encoder, target);
 }

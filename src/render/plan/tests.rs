@@ -1,114 +1,139 @@
-use glam::Vec3;
-
 use super::*;
-use crate::render::{Precision, technique::Settings};
-use crate::scene::{Camera, Environment, Lighting, Sun};
-
-fn request(technique: &str) -> FrameRequest {
-    FrameRequest {
-        width_px: 64,
-        height_px: 32,
-        supersampling: 1,
-        camera: Camera {
-            position_m: Vec3::Z,
-            target_m: Vec3::ZERO,
-            vertical_fov_rad: 1.0,
-            near_m: 0.1,
-            far_m: 10.0,
-        },
-        lighting: Lighting {
-            ambient: Ambient::Constant(Vec3::ONE),
-            background: Background::Colour(Vec3::ONE),
-            sun: None,
-            points: Vec::new(),
-            model_lights: None,
-            environment: None,
-            exposure_ev: 0.0,
-            tone_map: ToneMap::None,
-        },
-        occlusion: Settings::from_label(technique).unwrap(),
-        blur_radius_px: 4,
-        blur_plane_m: 0.05,
-        precision: Precision::Full,
-        seed: 1,
-    }
-}
-
-fn high(technique: &str) -> FrameRequest {
-    let mut request = request(technique);
-    request.supersampling = 2;
-    request.lighting.ambient = Ambient::Environment;
-    request.lighting.background = Background::Environment;
-    request.lighting.environment = Some(Environment {
-        axes: [Vec3::ONE; 6],
-    });
-    request.lighting.tone_map = ToneMap::Aces;
-    request.lighting.sun = Some(Sun {
-        towards: Vec3::Y,
-        irradiance: Vec3::ONE,
-        casts_shadows: true,
-    });
-    request
-}
+use crate::render::testing::{brightest, request};
 
 const FACTS: GeometryFacts = GeometryFacts {
     triangles: 12,
     has_normal_maps: true,
+    emits: true,
+    has_baked_occlusion: true,
+    uncovered: None,
 };
 
-fn kinds(request: &FrameRequest) -> Vec<PassKind> {
-    FramePlan::new(request, FACTS)
-        .passes
-        .iter()
-        .map(|pass| pass.kind)
-        .collect()
+/// What most models are: no lamps, nothing baked, no normal maps.
+const PLAIN: GeometryFacts = GeometryFacts {
+    has_normal_maps: false,
+    emits: false,
+    has_baked_occlusion: false,
+    ..FACTS
+};
+
+fn kinds(request: &FrameRequest, facts: GeometryFacts) -> Vec<PassKind> {
+    let plan = FramePlan::new(request, facts);
+    plan.passes.iter().map(|pass| pass.kind).collect()
+}
+
+fn reason(plan: &FramePlan, effect: &str) -> Option<String> {
+    let left_out = plan.left_out.iter().find(|left| left.effect == effect);
+    left_out.map(|left| left.because.clone())
 }
 
 #[test]
-fn none_in_constant_light_is_three_passes_without_normals() {
-    let plan = FramePlan::new(&request("none"), FACTS);
-    use PassKind::{Geometry, Lighting, Output};
-    assert_eq!(kinds(&request("none")), [Geometry, Lighting, Output]);
-    assert!(!plan.reads_normals);
+fn none_in_constant_light_is_two_passes_without_normals() {
+    let plan = FramePlan::new(&request("none"), PLAIN);
+    use PassKind::{Geometry, Shade};
+    assert_eq!(kinds(&request("none"), PLAIN), [Geometry, Shade]);
+    assert!(!plan.reads_normals && !plan.reads_emission);
     for effect in [
         "occlusion",
         "shadow map",
         "normals target",
         "normal mapping",
+        "emission target",
+        "direct light",
+        "point lights",
+        "reflections",
+        "skybox",
+        "radiance target",
         "tone map",
+        "supersampling",
     ] {
-        assert!(
-            plan.left_out.iter().any(|left| left.effect == effect),
-            "{effect}"
-        );
+        assert!(reason(&plan, effect).is_some(), "{effect}");
     }
 }
 
 #[test]
 fn a_technique_brings_its_pass_and_its_blur() {
-    use PassKind::{BlurColumns, BlurRows, Geometry, Lighting, Occlusion, Output};
-    let passes = [Geometry, Occlusion, BlurRows, BlurColumns, Lighting, Output];
-    assert_eq!(kinds(&request("crytek24")), passes);
+    use PassKind::{BlurColumns, BlurRows, Geometry, Occlusion, Shade};
+    let passes = [Geometry, Occlusion, BlurRows, BlurColumns, Shade];
+    assert_eq!(kinds(&request("crytek24"), PLAIN), passes);
     let mut unblurred = request("crytek24");
     unblurred.blur_radius_px = 0;
-    assert_eq!(kinds(&unblurred), [Geometry, Occlusion, Lighting, Output]);
+    assert_eq!(kinds(&unblurred, PLAIN), [Geometry, Occlusion, Shade]);
 }
 
 #[test]
-fn everything_asked_for_is_everything() {
-    assert_eq!(kinds(&high("blizzard24")).len(), 8);
-    assert!(
-        FramePlan::new(&high("blizzard24"), FACTS)
-            .left_out
-            .is_empty()
-    );
+fn everything_asked_for_is_everything_but_the_shortcut() {
+    let mut request = brightest("blizzard24");
+    request.baked_occlusion = true;
+    let plan = FramePlan::new(&request, FACTS);
+    assert_eq!(plan.passes.len(), 13);
+    assert_eq!(plan.left_out, []);
+}
+
+/// All effects run whatever is asked for, and each says that nothing called for it.
+#[test]
+fn all_effects_are_all_of_them() {
+    for technique in ["none", "crytek24"] {
+        let mut plain = request(technique);
+        plain.all_effects = true;
+        let found = kinds(&plain, PLAIN);
+        assert_eq!(found, kinds(&brightest("blizzard24"), FACTS));
+        let plan = FramePlan::new(&plain, PLAIN);
+        let sun = plan.passes.iter().find(|pass| pass.kind == PassKind::Sun);
+        assert!(sun.unwrap().because.contains("no directional light"));
+    }
 }
 
 #[test]
 fn a_sun_without_shadows_draws_no_shadow_map() {
-    let mut request = high("none");
+    let mut request = brightest("none");
     request.lighting.sun.as_mut().unwrap().casts_shadows = false;
-    assert!(!kinds(&request).contains(&PassKind::ShadowMap));
+    let found = kinds(&request, PLAIN);
+    assert!(!found.contains(&PassKind::ShadowMap) && !found.contains(&PassKind::ShadowFilter));
+    assert!(found.contains(&PassKind::Sun));
+}
+
+/// A sky is drawn where it can be seen, which the depth tells.
+#[test]
+fn a_covered_sky_is_left_out() {
+    let sky = |uncovered| {
+        let facts = GeometryFacts { uncovered, ..PLAIN };
+        kinds(&brightest("none"), facts).contains(&PassKind::Skybox)
+    };
+    assert!(sky(None) && sky(Some(true)) && !sky(Some(false)));
+}
+
+/// Nothing beside the constant ambient term may go through the shortcut.
+#[test]
+fn any_other_light_keeps_radiance() {
+    let change: [fn(&mut FrameRequest); 6] = [
+        |r| r.lighting.ambient = brightest("none").lighting.ambient,
+        |r| r.lighting.background = brightest("none").lighting.background,
+        |r| r.lighting.sun = brightest("none").lighting.sun,
+        |r| r.lighting.points = brightest("none").lighting.points,
+        |r| r.lighting.reflections = true,
+        |r| r.lighting.tone_map = brightest("none").lighting.tone_map,
+    ];
+    for change in change {
+        let mut request = request("none");
+        change(&mut request);
+        let found = kinds(&request, PLAIN);
+        assert!(found.contains(&PassKind::Ambient) && found.contains(&PassKind::Output));
+    }
+    assert!(kinds(&request("none"), FACTS).contains(&PassKind::Emission));
+}
+
+#[test]
+fn baked_occlusion_asks_for_the_emission_target_and_no_more() {
+    let baked = GeometryFacts {
+        has_baked_occlusion: true,
+        ..PLAIN
+    };
+    let mut asking = request("none");
+    asking.baked_occlusion = true;
+    assert!(FramePlan::new(&asking, baked).reads_emission);
+    assert!(!FramePlan::new(&request("none"), baked).reads_emission);
+    assert_eq!(kinds(&asking, baked), [PassKind::Geometry, PassKind::Shade]);
 }
 
 /// Everything read was written before it is read.
@@ -117,36 +142,43 @@ fn passes_run_after_what_they_read() {
     for request in [
         request("none"),
         request("blizzard8"),
-        high("none"),
-        high("ray-march30"),
+        brightest("none"),
+        brightest("ray-march30"),
     ] {
-        let plan = FramePlan::new(&request, FACTS);
-        let mut written = vec!["triangles", "textures"];
-        if !plan.has(PassKind::OcclusionGeometry) {
-            // At one sample a pixel the occlusion reads the shaded targets themselves.
-            written.extend(["occlusion depth", "occlusion normals"]);
-        }
-        for pass in &plan.passes {
-            for input in &pass.reads {
-                assert!(
-                    written.contains(input),
-                    "{} reads {input}",
-                    pass.kind.name()
-                );
+        for facts in [PLAIN, FACTS] {
+            let mut written = vec!["triangles", "textures"];
+            for pass in FramePlan::new(&request, facts).passes {
+                for input in &pass.reads {
+                    assert!(
+                        written.contains(input),
+                        "{} reads {input}",
+                        pass.kind.name()
+                    );
+                }
+                written.extend(pass.writes);
             }
-            written.extend(&pass.writes);
         }
     }
 }
 
 #[test]
-fn the_text_names_each_pass_and_each_effect_left_out() {
-    let plan = FramePlan::new(&request("none"), FACTS);
-    let text = plan.to_string();
+fn the_tree_names_each_pass_its_cost_and_each_effect_left_out() {
+    let plan = FramePlan::new(&request("none"), PLAIN);
+    let ran = [crate::stimulus::manifest::PassRecord {
+        pass: String::from("shade"),
+        gpu_ms: Some(12.345),
+        shared: false,
+    }];
+    let text = plan.tree(&ran);
     for pass in &plan.passes {
-        assert!(text.contains(pass.kind.name()));
+        assert!(text.contains(pass.kind.name()) && text.contains(&pass.because));
     }
     for left_out in &plan.left_out {
-        assert!(text.contains(&left_out.because));
+        assert!(text.contains(left_out.effect) && text.contains(&left_out.because));
     }
+    assert!(
+        text.contains("12.35 ms") || text.contains("12.34 ms"),
+        "{text}"
+    );
+    assert!(!plan.to_string().contains("ms"));
 }

@@ -20,12 +20,12 @@ struct Blur {
 fn fs_blur(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let centre = vec2i(position.xy);
     let centre_value = textureLoad(occlusion_texture, centre, 0).x;
-    let centre_depth_m = textureLoad(depth_texture, centre, 0).x;
+    let centre_depth_m = textureLoad(depth_texture, occlusion_texel(centre), 0).x;
     if centre_depth_m >= frame.far_m {
         return vec4f(centre_value);
     }
-    let centre_m = view_position(position.xy, centre_depth_m);
-    let world = world_normal(centre);
+    let centre_m = view_position(vec2f(centre) + occlusion_sample(), centre_depth_m);
+    let world = world_normal(occlusion_texel(centre));
     let normal = (frame.view * vec4f(world, 0.0)).xyz;
     // Two standard deviations reach the last tap.
     let falloff = 2.0 / f32(blur.radius_px * blur.radius_px);
@@ -36,10 +36,11 @@ fn fs_blur(@builtin(position) position: vec4f) -> @location(0) vec4f {
         if step == 0 || !is_inside(tap) {
             continue;
         }
-        let depth_m = textureLoad(depth_texture, tap, 0).x;
-        let tap_m = view_position(vec2f(tap) + 0.5, depth_m);
+        let texel = occlusion_texel(tap);
+        let depth_m = textureLoad(depth_texture, texel, 0).x;
+        let tap_m = view_position(vec2f(tap) + occlusion_sample(), depth_m);
         let off_plane = dot(tap_m - centre_m, normal) / blur.plane_m;
-        let turned = max(dot(world, world_normal(tap)), 0.0);
+        let turned = max(dot(world, world_normal(texel)), 0.0);
         let weight = exp(-f32(step * step) * falloff - off_plane * off_plane) * turned * turned;
         sum += weight * textureLoad(occlusion_texture, tap, 0).x;
         total += weight;

@@ -1,6 +1,6 @@
 //! Blizzard's technique, in the form the thesis used.
 
-use super::{Inputs, Parameter, Preset, Settings, Technique, Weighting, sampling};
+use super::{Inputs, Noise, Parameter, Preset, Settings, Technique, Weighting, sampling};
 use crate::seed;
 
 /// Blizzard's technique.
@@ -13,6 +13,7 @@ pub static BLIZZARD: Technique = Technique {
         depth: true,
         normals: true,
     },
+    noise: Noise::Tile,
     parameters: &[
         Parameter {
             name: "samples",

@@ -10,7 +10,7 @@ struct Params {
 }
 
 fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
-    let centre_m = view_position(vec2f(pixel) + 0.5, depth_m);
+    let centre_m = view_position(sample_px(pixel), depth_m);
     let normal = view_normal(pixel);
     let mirror = noise[tile_index(pixel)].xyz;
     var sum = 0.0;

@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec3};
 
-use super::{Inputs, Parameter, Preset, Settings, Technique, Weighting, noise_tile};
+use super::{Inputs, Noise, Parameter, Preset, Settings, Technique, Weighting, noise_tile};
 
 /// Crytek's technique.
 pub static CRYTEK: Technique = Technique {
@@ -14,6 +14,7 @@ pub static CRYTEK: Technique = Technique {
         depth: true,
         normals: false,
     },
+    noise: Noise::Tile,
     parameters: &[
         Parameter {
             name: "samples",

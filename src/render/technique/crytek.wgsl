@@ -15,7 +15,7 @@ fn rotate(quaternion: vec4f, v: vec3f) -> vec3f {
 }
 
 fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
-    let uv = (vec2f(pixel) + 0.5) / frame.size_px;
+    let uv = sample_px(pixel) / frame.size_px;
     let rotation = kernel[tile_index(pixel)];
     let growth = 1.0 + 2.4 / params.samples;
     var reach = params.radius_uv;
@@ -26,7 +26,7 @@ fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
         let offset = rotate(rotation, normalize(corner)) * reach;
         // The listing's offsets are fractions of the picture across, and of the depth along.
         let sample_depth_m = depth_m + offset.z * depth_m;
-        let surface_m = depth_at(vec2i(floor((uv + offset.xy) * frame.size_px)));
+        let surface_m = depth_at(nearest_pixel((uv + offset.xy) * frame.size_px));
         if surface_m >= frame.far_m {
             sum += 1.0;
         } else {

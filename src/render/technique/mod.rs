@@ -45,6 +45,15 @@ pub struct Inputs {
     pub normals: bool,
 }
 
+/// What of an estimate differs from pixel to pixel on one even surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Noise {
+    /// Nothing: there is nothing to blur.
+    None,
+    /// The samples turn with the 4 × 4 tile of [`noise_tile`].
+    Tile,
+}
+
 /// A number a technique can be set to.
 #[derive(Debug)]
 pub struct Parameter {
@@ -86,6 +95,8 @@ pub struct Technique {
     pub weighting: Weighting,
     /// What it reads.
     pub inputs: Inputs,
+    /// How its estimate varies between neighbours, for the blur.
+    pub noise: Noise,
     /// Its parameters, in the order of the WGSL struct `Params`.
     pub parameters: &'static [Parameter],
     /// The parameter that is its number of samples a pixel, if it has one.

@@ -1,6 +1,6 @@
 //! No occlusion: k_A = 1 everywhere, and no pass runs.
 
-use super::{Inputs, Technique, Weighting};
+use super::{Inputs, Noise, Technique, Weighting};
 
 /// No occlusion.
 pub static NONE: Technique = Technique {
@@ -12,6 +12,7 @@ pub static NONE: Technique = Technique {
         depth: false,
         normals: false,
     },
+    noise: Noise::None,
     parameters: &[],
     samples: None,
     presets: &[],

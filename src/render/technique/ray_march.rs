@@ -1,7 +1,7 @@
 //! The thesis' own technique: blizzard's offsets, walked in steps.
 
 use super::blizzard::{DISTANCE_SCALE, FAR_THRESHOLD, NEAR_THRESHOLD, POWER, RADIUS};
-use super::{Inputs, Parameter, Preset, Settings, Technique, Weighting, sampling};
+use super::{Inputs, Noise, Parameter, Preset, Settings, Technique, Weighting, sampling};
 use crate::seed;
 
 /// The ray-marching technique.
@@ -14,6 +14,7 @@ pub static RAY_MARCH: Technique = Technique {
         depth: true,
         normals: true,
     },
+    noise: Noise::Tile,
     parameters: &[
         Parameter {
             name: "directions",

@@ -65,7 +65,8 @@ impl Settings {
         }
     }
 
-    fn defaults(technique: &'static Technique, label: &str) -> Self {
+    /// A technique as it declares itself.
+    pub(in crate::render) fn defaults(technique: &'static Technique, label: &str) -> Self {
         Self {
             label: label.to_owned(),
             technique,

@@ -121,6 +121,7 @@ pub(super) struct LightingFile {
     pub extends: Option<Spanned<String>>,
     pub ambient: Option<Spanned<AmbientFile>>,
     pub background: Option<Spanned<BackgroundFile>>,
+    pub reflections: Option<Spanned<bool>>,
     pub sun: Option<SunFile>,
     pub exposure_ev: Option<Stops>,
     pub tone_map: Option<ToneMapFile>,

@@ -48,15 +48,24 @@ pub(super) fn resolve(
             Background::Environment
         }
     };
+    let reflections = match &merged.reflections {
+        Some(asked) if *asked.get_ref() => {
+            needs_environment(asked.span(), "reflections")?;
+            true
+        }
+        _ => false,
+    };
     Ok(Lighting {
+        reflections,
         sun: merged
             .sun
             .map(|file| sun(&file, &field("sun"), source))
             .transpose()?,
         points: Vec::new(),
         model_lights: None,
-        environment: environment
-            .filter(|_| ambient == Ambient::Environment || background == Background::Environment),
+        environment: environment.filter(|_| {
+            reflections || ambient == Ambient::Environment || background == Background::Environment
+        }),
         ambient,
         background,
         exposure_ev: merged.exposure_ev.map_or(0.0, Stops::get),
@@ -81,6 +90,7 @@ fn merge_chain(
     loop {
         merged.ambient = merged.ambient.or_else(|| current.ambient.clone());
         merged.background = merged.background.or_else(|| current.background.clone());
+        merged.reflections = merged.reflections.or_else(|| current.reflections.clone());
         merged.sun = merged.sun.or_else(|| current.sun.clone());
         merged.exposure_ev = merged.exposure_ev.or(current.exposure_ev);
         merged.tone_map = merged.tone_map.or(current.tone_map);

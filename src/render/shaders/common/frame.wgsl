@@ -1,7 +1,10 @@
 // The camera and the target of the pass at hand.
 //
 // View space: metres, +X right, +Y up, the camera looks along -Z. Linear depth is -z:
-// positive, metres. A pixel without a surface has depth frame.far_m.
+// positive, metres. A texel without a surface has depth frame.far_m.
+//
+// Surfaces are drawn at several samples a pixel. Occlusion is estimated once a pixel, on one of
+// its samples: its number of samples a pixel then means what it says, whatever the image's.
 
 struct Frame {
     view: mat4x4f,
@@ -15,8 +18,10 @@ struct Frame {
     exposure: f32,
     // Size of this pass' target.
     size_px: vec2f,
-    // Size of the occlusion targets.
-    occlusion_size_px: vec2f,
+    // Size of the image.
+    image_px: vec2f,
+    // Samples of the surfaces along one side of a pixel.
+    samples: i32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
@@ -35,4 +40,14 @@ fn project_px(position_m: vec3f) -> vec2f {
 
 fn is_inside(pixel: vec2i) -> bool {
     return all(pixel >= vec2i(0)) && all(pixel < vec2i(frame.size_px));
+}
+
+// The sample of an image pixel that its occlusion belongs to: the texel of the surfaces,
+fn occlusion_texel(pixel: vec2i) -> vec2i {
+    return pixel * frame.samples + frame.samples / 2;
+}
+
+// and where it lies within the pixel, from the pixel's corner.
+fn occlusion_sample() -> f32 {
+    return (f32(frame.samples / 2) + 0.5) / f32(frame.samples);
 }

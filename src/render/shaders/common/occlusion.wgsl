@@ -16,7 +16,17 @@
 // sampler: calling it open would draw a bright frame round every image.
 fn depth_at(pixel: vec2i) -> f32 {
     let inside = clamp(pixel, vec2i(0), vec2i(frame.size_px) - 1);
-    return textureLoad(depth_texture, inside, 0).x;
+    return textureLoad(depth_texture, occlusion_texel(inside), 0).x;
+}
+
+// Where on the target a pixel's surface was sampled.
+fn sample_px(pixel: vec2i) -> vec2f {
+    return vec2f(pixel) + occlusion_sample();
+}
+
+// The pixel whose sample is nearest to a point of the target.
+fn nearest_pixel(target_px: vec2f) -> vec2i {
+    return vec2i(floor(target_px - occlusion_sample() + 0.5));
 }
 
 fn tile_index(pixel: vec2i) -> u32 {
@@ -25,7 +35,7 @@ fn tile_index(pixel: vec2i) -> u32 {
 }
 
 fn view_normal(pixel: vec2i) -> vec3f {
-    return (frame.view * vec4f(world_normal(pixel), 0.0)).xyz;
+    return (frame.view * vec4f(world_normal(occlusion_texel(pixel)), 0.0)).xyz;
 }
 
 // Linear depth of the surface that hides or is hidden by a view-space point. A point that is not
@@ -34,7 +44,7 @@ fn surface_depth_at(position_m: vec3f) -> f32 {
     if -position_m.z < frame.near_m {
         return frame.far_m;
     }
-    return depth_at(vec2i(floor(project_px(position_m))));
+    return depth_at(nearest_pixel(project_px(position_m)));
 }
 
 @fragment

@@ -1,4 +1,6 @@
-// Irradiance of the environment on the normal, over pi.
+// Irradiance of the environment on the normal, over pi, and what is constant beside it.
+//!use light
+//!use diffuse
 fn ambient_radiance(point: Point) -> vec3f {
     let n = point.normal;
     let e = light.irradiance[0].rgb * 0.2820948
@@ -7,5 +9,6 @@ fn ambient_radiance(point: Point) -> vec3f {
             + light.irradiance[7].rgb * (n.x * n.z)) * 1.0925484
         + light.irradiance[6].rgb * (0.31539157 * (3.0 * n.z * n.z - 1.0))
         + light.irradiance[8].rgb * (0.5462742 * (n.x * n.x - n.y * n.y));
-    return point.albedo * max(e, vec3f(0.0)) / 3.14159265;
+    let albedo = diffuse_albedo(point);
+    return albedo * light.constant_ambient.rgb + albedo * max(e, vec3f(0.0)) / 3.14159265;
 }

@@ -8,6 +8,12 @@ struct Light {
     background: vec4f,
     sun_towards: vec4f,
     sun_irradiance: vec4f,
+    // How much an effect counts, 0 or 1. A weight of 0 is how a frame runs an effect that
+    // its scene did not ask for.
+    occlusion_weight: f32,
+    shadow_weight: f32,
+    reflection_weight: f32,
+    sky_weight: f32,
     shadow_from_world: mat4x4f,
     // Side of a shadow texel in metres; its inverse size; bias in light depth; unused.
     shadow_texel: vec4f,

@@ -1,3 +1,3 @@
-fn occlusion_factor(point: Point) -> f32 {
+fn computed_occlusion(point: Point) -> f32 {
     return 1.0;
 }

@@ -1,3 +1,3 @@
-fn sun_visibility(point: Point) -> f32 {
+fn sun_visibility(texel: vec2i) -> f32 {
     return 1.0;
 }

@@ -1,0 +1,103 @@
+//! A pass that covers its whole target with one shader.
+
+use super::super::bindings::Bound;
+use super::super::{Gpu, shader};
+
+/// What becomes of what the target held.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Onto {
+    /// It goes: the target is this colour wherever the shader writes nothing.
+    Cleared(wgpu::Color),
+    /// The shader's colour is added to it.
+    Added,
+}
+
+/// One shader over a whole target.
+pub(super) struct Fullscreen<'a> {
+    pub label: &'a str,
+    pub source: &'a str,
+    pub variants: &'a [(&'a str, &'a str)],
+    pub fragment: &'a str,
+    pub bound: &'a Bound,
+    pub onto: Onto,
+}
+
+impl Fullscreen<'_> {
+    pub(super) fn draw(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::TextureView,
+    ) {
+        let pipeline = self.pipeline(gpu, target.texture().format());
+        let load = match self.onto {
+            Onto::Cleared(colour) => wgpu::LoadOp::Clear(colour),
+            Onto::Added => wgpu::LoadOp::Load,
+        };
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(self.label),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: target,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load,
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            ..wgpu::RenderPassDescriptor::default()
+        });
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &self.bound.group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+
+    fn pipeline(&self, gpu: &Gpu, format: wgpu::TextureFormat) -> wgpu::RenderPipeline {
+        let module = shader::module(&gpu.device, self.label, self.source, self.variants);
+        let layout = gpu
+            .device
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(self.label),
+                bind_group_layouts: &[Some(&self.bound.layout)],
+                immediate_size: 0,
+            });
+        let sum = wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::One,
+            dst_factor: wgpu::BlendFactor::One,
+            operation: wgpu::BlendOperation::Add,
+        };
+        let target = wgpu::ColorTargetState {
+            format,
+            blend: match self.onto {
+                Onto::Cleared(_) => None,
+                Onto::Added => Some(wgpu::BlendState {
+                    color: sum,
+                    alpha: sum,
+                }),
+            },
+            write_mask: wgpu::ColorWrites::ALL,
+        };
+        gpu.device
+            .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some(self.label),
+                layout: Some(&layout),
+                vertex: wgpu::VertexState {
+                    module: &module,
+                    entry_point: Some("vs_fullscreen"),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    buffers: &[],
+                },
+                primitive: wgpu::PrimitiveState::default(),
+                depth_stencil: None,
+                multisample: wgpu::MultisampleState::default(),
+                fragment: Some(wgpu::FragmentState {
+                    module: &module,
+                    entry_point: Some(self.fragment),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    targets: &[Some(target)],
+                }),
+                multiview_mask: None,
+                cache: None,
+            })
+    }
+}

@@ -1,0 +1,3 @@
+fn baked_occlusion(point: Point) -> f32 {
+    return 1.0;
+}

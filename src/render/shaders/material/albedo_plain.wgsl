@@ -1,0 +1,3 @@
+fn material_albedo(surface: Surface) -> vec4f {
+    return material.albedo * surface.color;
+}

@@ -1,0 +1,3 @@
+fn material_emission(surface: Surface) -> vec3f {
+    return material.emission;
+}

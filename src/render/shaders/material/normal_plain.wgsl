@@ -1,0 +1,3 @@
+fn material_normal(surface: Surface, geometric: vec3f) -> vec3f {
+    return geometric;
+}

@@ -1,0 +1,2 @@
+fn mask(alpha: f32) {
+}

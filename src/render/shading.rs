@@ -1,0 +1,232 @@
+//! From drawn surfaces to an image: occlusion, light, output.
+
+use half::f16;
+use wgpu::util::DeviceExt;
+
+use super::bindings::uniform_of;
+use super::frame::{Formats, FrameRequest, FrameUniform, normals_part};
+use super::light::{LightUniform, PointUniform};
+use super::pass::{self, BlurInputs, LightInputs, OcclusionInputs};
+use super::plan::{FramePlan, PassKind};
+use super::readback::{FloatImage, Readback};
+use super::recorder::Recorder;
+use super::surfaces::Surfaces;
+use super::targets::target;
+use super::{Gpu, RenderError};
+use crate::scene::{Ambient, Background};
+use crate::stimulus::manifest::{PassRecord, Picture};
+
+/// A shaded image, with what can be read of how it came about.
+pub(super) struct Shaded {
+    pub picture: Picture,
+    pub occlusion: Option<FloatImage>,
+    /// Radiance, RGBA, at the shaded resolution, where the frame keeps it.
+    pub radiance: Option<wgpu::TextureView>,
+    /// What ran here, in order.
+    pub passes: Vec<PassRecord>,
+}
+
+/// The lights of a request, with the weights of what it asks for; where shadows lie has been
+/// drawn before.
+pub(super) fn lights_of(request: &FrameRequest) -> LightUniform {
+    LightUniform::new(request, None)
+}
+
+/// Shades. `request` has everything that `plan` runs; `lights` weighs it.
+pub(super) fn shade(
+    gpu: &Gpu,
+    request: &FrameRequest,
+    plan: &FramePlan,
+    drawn: (&Surfaces, Option<&wgpu::TextureView>),
+    lights: LightUniform,
+) -> Result<Shaded, RenderError> {
+    let shading = Shading::new(gpu, request, plan, drawn, lights);
+    let mut recorder = Recorder::new(gpu, plan.passes.len());
+    for planned in &plan.passes {
+        shading.record(&mut recorder, planned.kind);
+    }
+    let image = Readback::record(gpu, &mut recorder.encoder, shading.image.texture());
+    let occlusion = shading
+        .occlusion
+        .as_ref()
+        .map(|view| Readback::record(gpu, &mut recorder.encoder, view.texture()));
+    let passes = recorder.finish();
+    Ok(Shaded {
+        picture: Picture {
+            width_px: request.width_px,
+            height_px: request.height_px,
+            rgba8: image.read(gpu)?,
+        },
+        occlusion: occlusion.map(|copy| copy.read_floats(gpu)).transpose()?,
+        radiance: shading.radiance,
+        passes,
+    })
+}
+
+/// What the passes after the surfaces share.
+struct Shading<'a> {
+    gpu: &'a Gpu,
+    request: &'a FrameRequest,
+    plan: &'a FramePlan,
+    surfaces: &'a Surfaces,
+    visibility: Option<&'a wgpu::TextureView>,
+    normals_part: (&'static str, &'static str),
+    /// Frame numbers at the shaded size, and at the image's.
+    shaded_frame: wgpu::Buffer,
+    image_frame: wgpu::Buffer,
+    light: wgpu::Buffer,
+    points: Option<wgpu::Buffer>,
+    occlusion: Option<wgpu::TextureView>,
+    /// Between the blur's two directions.
+    half_blurred: Option<wgpu::TextureView>,
+    radiance: Option<wgpu::TextureView>,
+    image: wgpu::TextureView,
+}
+
+impl<'a> Shading<'a> {
+    fn new(
+        gpu: &'a Gpu,
+        request: &'a FrameRequest,
+        plan: &'a FramePlan,
+        (surfaces, visibility): (&'a Surfaces, Option<&'a wgpu::TextureView>),
+        lights: LightUniform,
+    ) -> Self {
+        let frame = |size| uniform_of(&gpu.device, "frame", &[FrameUniform::new(request, size)]);
+        let image_size = (request.width_px, request.height_px);
+        let points: Vec<PointUniform> = request.lighting.points.iter().map(Into::into).collect();
+        let occlusion_format = Formats::of(request.precision).occlusion;
+        let on_plan =
+            |kind, label, size, format| plan.has(kind).then(|| target(gpu, label, size, format));
+        Self {
+            gpu,
+            request,
+            plan,
+            surfaces,
+            visibility,
+            normals_part: normals_part(plan, request.precision),
+            shaded_frame: frame(request.shaded_size()),
+            image_frame: frame(image_size),
+            light: uniform_of(&gpu.device, "light", &[lights]),
+            points: plan.has(PassKind::PointLights).then(|| {
+                gpu.device
+                    .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                        label: Some("point lights"),
+                        contents: bytemuck::cast_slice(&points),
+                        usage: wgpu::BufferUsages::STORAGE,
+                    })
+            }),
+            occlusion: on_plan(
+                PassKind::Occlusion,
+                "occlusion",
+                image_size,
+                occlusion_format,
+            ),
+            half_blurred: on_plan(
+                PassKind::BlurRows,
+                "half blurred",
+                image_size,
+                occlusion_format,
+            ),
+            radiance: on_plan(
+                PassKind::Ambient,
+                "radiance",
+                request.shaded_size(),
+                Formats::RADIANCE,
+            ),
+            image: target(gpu, "image", image_size, Formats::OUTPUT),
+        }
+    }
+
+    fn record(&self, recorder: &mut Recorder<'_>, kind: PassKind) {
+        match kind {
+            // Drawn before, for all images that share them.
+            PassKind::Geometry | PassKind::ShadowMap | PassKind::ShadowFilter => {}
+            PassKind::Occlusion => recorder.pass(kind, |encoder| self.occlusion(encoder)),
+            PassKind::BlurRows => recorder.pass(kind, |encoder| {
+                self.blur(encoder, [1, 0], &self.occlusion, &self.half_blurred);
+            }),
+            PassKind::BlurColumns => recorder.pass(kind, |encoder| {
+                self.blur(encoder, [0, 1], &self.half_blurred, &self.occlusion);
+            }),
+            PassKind::Shade => recorder.pass(kind, |encoder| {
+                let (lighting, samples) = (&self.request.lighting, self.request.supersampling);
+                let inputs = self.light_inputs();
+                pass::shade(self.gpu, encoder, lighting, samples, &inputs, &self.image);
+            }),
+            PassKind::Output => recorder.pass(kind, |encoder| {
+                let (lighting, samples) = (&self.request.lighting, self.request.supersampling);
+                // The plan has an ambient pass, and so radiance, wherever it has an output.
+                if let Some(radiance) = &self.radiance {
+                    pass::output(self.gpu, encoder, lighting, samples, radiance, &self.image);
+                }
+            }),
+            light => recorder.pass(kind, |encoder| {
+                if let Some(radiance) = &self.radiance {
+                    pass::light(self.gpu, encoder, light, &self.light_inputs(), radiance);
+                }
+            }),
+        }
+    }
+
+    fn occlusion(&self, encoder: &mut wgpu::CommandEncoder) {
+        // Occlusion is planned with normals, always.
+        let (Some(normals), Some(target)) = (&self.surfaces.normals, &self.occlusion) else {
+            return;
+        };
+        let inputs = OcclusionInputs {
+            frame: &self.image_frame,
+            depth_m: &self.surfaces.depth_m,
+            normals,
+            normals_part: self.normals_part,
+            seed: self.request.seed,
+        };
+        pass::occlusion(self.gpu, encoder, &self.request.occlusion, &inputs, target);
+    }
+
+    fn blur(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        direction: [i32; 2],
+        from: &Option<wgpu::TextureView>,
+        to: &Option<wgpu::TextureView>,
+    ) {
+        let (Some(normals), Some(from), Some(to)) = (&self.surfaces.normals, from, to) else {
+            return;
+        };
+        let inputs = BlurInputs {
+            frame: &self.image_frame,
+            depth_m: &self.surfaces.depth_m,
+            normals,
+            normals_part: self.normals_part,
+            occlusion: from,
+            radius_px: self.request.blur_radius_px,
+            plane_m: self.request.blur_plane_m,
+        };
+        pass::blur(self.gpu, encoder, &inputs, direction, to);
+    }
+
+    fn light_inputs(&self) -> LightInputs<'_> {
+        let lighting = &self.request.lighting;
+        let background = match lighting.background {
+            Background::Colour(colour) => colour.to_array(),
+            Background::Environment => [0.0; 3],
+        };
+        LightInputs {
+            frame: &self.shaded_frame,
+            light: &self.light,
+            depth_m: &self.surfaces.depth_m,
+            albedo: &self.surfaces.albedo,
+            normals: self.surfaces.normals.as_ref(),
+            normals_part: self.normals_part,
+            emission: self.surfaces.emission.as_ref(),
+            is_baked: self.plan.reads_emission
+                && (self.request.baked_occlusion || self.request.all_effects),
+            occlusion: self.occlusion.as_ref(),
+            visibility: self.visibility,
+            points: self.points.as_ref(),
+            has_irradiance: lighting.ambient == Ambient::Environment || self.request.all_effects,
+            // As the target stores it, so that clearing has nothing to round.
+            background: background.map(|channel| f16::from_f32(channel).to_f32()),
+        }
+    }
+}
