@@ -6,6 +6,7 @@
 //! else is a pass ([`pass`]) that reads and writes named targets.
 
 mod bindings;
+mod buffers;
 pub mod device;
 mod error;
 mod frame;
@@ -26,6 +27,7 @@ pub mod technique;
 mod timestamps;
 mod upload;
 
+pub use buffers::Buffer;
 pub use device::Gpu;
 pub use error::RenderError;
 pub use frame::{FrameRequest, Precision};

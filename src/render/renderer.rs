@@ -96,6 +96,16 @@ impl<'a> View<'a> {
         })
     }
 
+    /// The adapter.
+    pub(super) fn gpu(&self) -> &'a Gpu {
+        self.gpu
+    }
+
+    /// The surfaces of the image drawn last.
+    pub(super) fn drawn_surfaces(&self) -> Option<&Surfaces> {
+        self.surfaces.as_ref()
+    }
+
     /// Draws, and turns what the driver says into an error.
     pub(super) fn guarded(&mut self, request: &FrameRequest) -> Result<Shaded, RenderError> {
         check_size(self.gpu, request)?;

@@ -1,10 +1,16 @@
 //! What tests of plans and of frames start from.
 
+use std::sync::OnceLock;
+
 use glam::Vec3;
 
 use super::technique::Settings;
-use super::{FrameRequest, Precision};
-use crate::scene::{Ambient, Background, Camera, Environment, Lighting, PointLight, Sun, ToneMap};
+use super::{FrameRequest, Gpu, Precision, RenderedFrame, Renderer};
+use crate::scene::primitives::{cuboid, of_one_material, quad};
+use crate::scene::{
+    Ambient, Background, Camera, Environment, Geometry, Lighting, Material, Mesh, PointLight, Sun,
+    ToneMap,
+};
 
 /// A request for a scene seen from 4 m away at eye height, in constant white light.
 pub(super) fn request(technique: &str) -> FrameRequest {
@@ -66,4 +72,78 @@ pub(super) fn brightest(technique: &str) -> FrameRequest {
         tone_map: ToneMap::Aces,
     };
     request
+}
+
+pub(super) fn renderer() -> &'static Renderer {
+    static RENDERER: OnceLock<Renderer> = OnceLock::new();
+    RENDERER.get_or_init(|| {
+        Renderer::new(Gpu::open(None).expect("tests need an adapter: mesa-vulkan-drivers has one"))
+    })
+}
+
+pub(super) fn matte(albedo: [f32; 3]) -> Material {
+    Material {
+        albedo,
+        specular: 0.0,
+        roughness: 1.0,
+        ..Material::default()
+    }
+}
+
+pub(super) fn floor() -> Mesh {
+    quad(
+        "floor",
+        Vec3::new(-6.0, 0.0, 6.0),
+        Vec3::X * 12.0,
+        Vec3::NEG_Z * 12.0,
+    )
+}
+
+/// A floor with a wall standing on it, 1.6 m high and free above.
+pub(super) fn floor_and_wall(albedo: [f32; 3]) -> Geometry {
+    let wall = cuboid("wall", Vec3::new(-1.5, 0.0, -0.5), Vec3::new(1.5, 1.6, 0.0));
+    of_one_material(matte(albedo), vec![floor(), wall])
+}
+
+pub(super) fn draw(geometry: &Geometry, request: &FrameRequest) -> RenderedFrame {
+    let scene = renderer().upload(geometry).unwrap();
+    renderer().render(&scene, request).unwrap()
+}
+
+/// The pixel a point is seen at.
+pub(super) fn pixel_of(request: &FrameRequest, point: Vec3) -> (u32, u32) {
+    let clip =
+        (request.camera.projection(request.aspect()) * request.camera.view()).project_point3(point);
+    let x = (clip.x * 0.5 + 0.5) * request.width_px as f32;
+    let y = (0.5 - clip.y * 0.5) * request.height_px as f32;
+    (x as u32, y as u32)
+}
+
+pub(super) fn rgb(frame: &RenderedFrame, (x, y): (u32, u32)) -> [u8; 3] {
+    let at = 4 * (y * frame.picture.width_px + x) as usize;
+    [
+        frame.picture.rgba8[at],
+        frame.picture.rgba8[at + 1],
+        frame.picture.rgba8[at + 2],
+    ]
+}
+
+/// IEC 61966-2-1, to the nearest 8-bit level.
+pub(super) fn srgb8(linear: f32) -> i32 {
+    let encoded = if linear <= 0.003_130_8 {
+        linear * 12.92
+    } else {
+        1.055 * linear.powf(1.0 / 2.4) - 0.055
+    };
+    (encoded * 255.0).round() as i32
+}
+
+pub(super) fn assert_level(found: [u8; 3], linear: f32) {
+    for channel in found {
+        assert!(
+            (i32::from(channel) - srgb8(linear)).abs() <= 1,
+            "{found:?} is not {}",
+            srgb8(linear)
+        );
+    }
 }
