@@ -65,7 +65,7 @@ mod tests {
     use crate::render::plan::{FramePlan, GeometryFacts};
     use crate::render::technique::Settings;
     use crate::stimulus::StimulusSet;
-    use crate::stimulus::set::SetCondition;
+    use crate::stimulus::set::RenderedPair;
 
     /// What the shipped scenes are: normal maps, no lamps, nothing baked, sky in view.
     const FACTS: GeometryFacts = GeometryFacts {
@@ -89,7 +89,7 @@ mod tests {
             named.canonicalize().unwrap(),
             dir.path().join(STIMULI).canonicalize().unwrap()
         );
-        assert_eq!(set.size_px, (1280, 720));
+        assert_eq!(set.size_px, Some((1280, 720)));
     }
 
     /// The seven conditions, as the thesis' chapter 5.3 and table 4 have them.
@@ -102,14 +102,8 @@ mod tests {
             .conditions
             .iter()
             .map(|c| {
-                [
-                    &c.id,
-                    &c.validity,
-                    &c.first.label,
-                    &c.second.label,
-                    &c.hypothesis,
-                ]
-                .map(String::as_str)
+                let [first, second] = c.labels();
+                [&c.id, &c.validity, first, second, &c.hypothesis]
             })
             .collect();
         let expected = [
@@ -142,12 +136,12 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         unpack(dir.path()).unwrap();
         let set = StimulusSet::load(&dir.path().join(STIMULI)).unwrap();
-        let passes_of = |condition: &SetCondition, technique: &Settings| -> Vec<&str> {
-            let plan = FramePlan::new(&set.request(condition, technique), FACTS);
+        let passes_of = |pair: &RenderedPair, technique: &Settings| -> Vec<&str> {
+            let plan = FramePlan::new(&set.request(pair, technique), FACTS);
             plan.passes.iter().map(|pass| pass.kind.name()).collect()
         };
-        for condition in &set.conditions {
-            for technique in [&condition.first, &condition.second] {
+        for (condition, pair) in set.rendered() {
+            for technique in [&pair.first, &pair.second] {
                 let mut expected = vec!["geometry"];
                 if condition.validity == "high" {
                     expected.extend(["shadow-map", "shadow-filter"]);
@@ -160,12 +154,12 @@ mod tests {
                     "moderate" => vec!["ambient", "skybox", "output"],
                     _ => vec!["ambient", "sun", "skybox", "output"],
                 });
-                let found = passes_of(condition, technique);
+                let found = passes_of(pair, technique);
                 assert_eq!(found, expected, "{} {}", condition.id, technique.label);
             }
         }
         // The dragon runs at most half the passes of the atrium in full light.
-        let of = |id: &str| set.conditions.iter().find(|c| c.id == id).unwrap();
+        let of = |id: &str| set.rendered().find(|(c, _)| c.id == id).unwrap().1;
         let dragon = passes_of(of("dragon-low"), &of("dragon-low").second);
         let atrium = passes_of(of("sponza-high-h2"), &of("sponza-high-h2").second);
         assert!(2 * dragon.len() <= atrium.len(), "{dragon:?} {atrium:?}");

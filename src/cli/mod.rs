@@ -30,6 +30,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Demo(demo::Demo),
+    #[command(visible_alias = "import")]
     Render(render::RenderArgs),
     Run(Box<run::Run>),
     Order(order::Order),

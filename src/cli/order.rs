@@ -92,12 +92,15 @@ fn is_broken_pipe(failure: &Failure) -> bool {
 /// The conditions of a stimulus set, which need not be rendered for this.
 fn conditions(set: &Path) -> Result<Vec<Condition>, Failure> {
     let set = StimulusSet::load(set).map_err(Failure::bad_input)?;
-    let condition = |condition: &SetCondition| Condition {
-        id: condition.id.clone(),
-        scene: set.scenes[condition.scene].id.clone(),
-        first_technique: condition.first.label.clone(),
-        second_technique: condition.second.label.clone(),
-        hypothesis: condition.hypothesis.clone(),
+    let condition = |condition: &SetCondition| {
+        let [first_technique, second_technique] = condition.labels().map(str::to_owned);
+        Condition {
+            id: condition.id.clone(),
+            scene: condition.scene_id(&set).to_owned(),
+            first_technique,
+            second_technique,
+            hypothesis: condition.hypothesis.clone(),
+        }
     };
     Ok(set.conditions.iter().map(condition).collect())
 }

@@ -8,9 +8,14 @@ use clap::Args;
 use super::{Failure, Verbosity};
 use crate::render::plan::{FramePlan, GeometryFacts};
 use crate::render::{Gpu, Precision, Renderer};
-use crate::stimulus::{Manifest, StimulusSet, files, produce, sheet};
+use crate::stimulus::produce::{self, ProduceError};
+use crate::stimulus::set::ImageSource;
+use crate::stimulus::{Manifest, StimulusSet, files, sheet};
 
-/// Draw the images of a stimulus set, with a manifest of where each came from.
+/// Make the images of a stimulus set, with a manifest of where each came from.
+///
+/// Images are rendered from the scenes the set names, or converted from the files it names;
+/// a set of files only needs no graphics adapter.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example:\n  greyfield render stimuli/thesis-2010.toml\n  greyfield render stimuli/thesis-2010.toml --explain --only dragon-low"
@@ -104,7 +109,7 @@ pub struct Drawn {
     pub timings: String,
 }
 
-/// Opens the adapter and draws the set, with a progress bar.
+/// Opens the adapter if the set needs one and makes the set, with a progress bar.
 ///
 /// # Errors
 /// [`Failure`]: exit code 2 for a condition that is not there, 1 for adapter and disk.
@@ -116,29 +121,33 @@ pub fn draw(
     verbosity: Verbosity,
 ) -> Result<Drawn, Failure> {
     let mut watch = StopWatch::new();
-    watch.step("opening the adapter");
-    let renderer = Renderer::new(Gpu::open(adapter)?);
-    let steps = set.scenes.len() + 2 * set.conditions.len();
+    let steps = 1 + set.scenes.len() + 2 * set.conditions.len();
     let bar = verbosity.progress(steps as u64);
-    let manifest = produce::produce(&renderer, set, folder, only, &mut |what| {
+    let open = || Ok(Renderer::new(Gpu::open(adapter)?));
+    let produced = produce::produce(&open, set, folder, only, &mut |what| {
         watch.step(what);
         bar.set_message(what.to_owned());
         bar.inc(1);
     })
     .map_err(|error| match error {
-        produce::ProduceError::NoSuchCondition { .. } => Failure::bad_input(error),
+        ProduceError::NoSuchCondition { .. }
+        | ProduceError::Source(_)
+        | ProduceError::Pair { .. } => Failure::bad_input(error),
         error => Failure::from(error),
     })?;
     bar.finish_and_clear();
-    let adapter = &renderer.gpu().adapter;
-    let timings = format!(
-        "on {} ({}, {})\n{}",
-        adapter.name,
-        adapter.kind,
-        adapter.driver,
-        watch.finish()
-    );
-    Ok(Drawn { manifest, timings })
+    for warning in &produced.warnings {
+        eprintln!("warning: {warning}");
+    }
+    let mut timings = watch.finish();
+    if let Some(adapter) = &produced.manifest.adapter {
+        let (name, kind, driver) = (&adapter.name, &adapter.kind, &adapter.driver);
+        timings = format!("on {name} ({kind}, {driver})\n{timings}");
+    }
+    Ok(Drawn {
+        manifest: produced.manifest,
+        timings,
+    })
 }
 
 /// Wall time of one step after another.
@@ -204,18 +213,25 @@ fn explain(set: &StimulusSet, only: Option<&str>, folder: &Path) -> Result<(), F
         .filter(|c| only.is_none_or(|only| c.id == only))
     {
         found = true;
-        let scene = &set.scenes[condition.scene];
-        let facts = match facts[condition.scene] {
+        let pair = match &condition.images {
+            ImageSource::Rendered(pair) => pair,
+            ImageSource::Loaded(_) => {
+                println!("{} — made elsewhere, nothing is rendered\n", condition.id);
+                continue;
+            }
+        };
+        let scene = &set.scenes[pair.scene];
+        let facts = match facts[pair.scene] {
             Some(known) => known,
-            None => *facts[condition.scene].insert(GeometryFacts::of(
+            None => *facts[pair.scene].insert(GeometryFacts::of(
                 &scene.geometry.load().map_err(Failure::bad_input)?,
             )),
         };
         println!(
             "{} — {} ({}), {} lighting",
-            condition.id, scene.title, scene.id, condition.lighting
+            condition.id, scene.title, scene.id, pair.lighting
         );
-        for technique in [&condition.first, &condition.second] {
+        for technique in [&pair.first, &pair.second] {
             let ran = drawn.as_ref().map_or(&[][..], |drawn| {
                 drawn.passes_of(&condition.id, &technique.label)
             });
@@ -224,7 +240,7 @@ fn explain(set: &StimulusSet, only: Option<&str>, folder: &Path) -> Result<(), F
                 uncovered: (!ran.is_empty()).then(|| ran.iter().any(|r| r.pass == "skybox")),
                 ..facts
             };
-            let plan = FramePlan::new(&set.request(condition, technique), facts);
+            let plan = FramePlan::new(&set.request(pair, technique), facts);
             println!("{}", technique.label);
             print!("{}", plan.tree(ran));
         }

@@ -7,6 +7,8 @@
 mod file;
 mod lighting;
 
+pub(crate) use self::file::{Stops, ToneMapFile};
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 

@@ -92,3 +92,53 @@ pub struct Lighting {
     /// The tone map.
     pub tone_map: ToneMap,
 }
+
+impl ToneMap {
+    /// Linear radiance, exposed, to a linear value to display; what lies above 1 is for the
+    /// caller to clip. The same curves as `render/shaders/tone_map/`.
+    #[must_use]
+    pub fn apply(self, radiance: Vec3) -> Vec3 {
+        match self {
+            Self::None => radiance,
+            Self::ReinhardExtended { white } => {
+                let luminance = radiance.dot(Vec3::new(0.2126, 0.7152, 0.0722));
+                radiance * ((1.0 + luminance / (white * white)) / (1.0 + luminance))
+            }
+            Self::Aces => {
+                let x = radiance;
+                (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14)
+            }
+        }
+    }
+}
+
+impl std::fmt::Display for ToneMap {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::None => f.write_str("none"),
+            Self::ReinhardExtended { white } => write!(f, "reinhard-extended, white {white}"),
+            Self::Aces => f.write_str("aces"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Reinhard's white becomes 1 and small values stay; both curves rise.
+    #[test]
+    fn tone_maps_have_their_fixed_points() {
+        let reinhard = ToneMap::ReinhardExtended { white: 4.0 };
+        assert!((reinhard.apply(Vec3::splat(4.0)) - Vec3::ONE).length() < 1e-5);
+        assert!((reinhard.apply(Vec3::splat(1e-3)).x - 1e-3).abs() < 2e-6);
+        // Narkowicz's fit passes 0.8 at an input of 1 (2.54 / 3.16).
+        assert!((ToneMap::Aces.apply(Vec3::ONE).x - 2.54 / 3.16).abs() < 1e-6);
+        for map in [reinhard, ToneMap::Aces] {
+            let values: Vec<f32> = (0..50)
+                .map(|i| map.apply(Vec3::splat(i as f32 * 0.1)).y)
+                .collect();
+            assert!(values.is_sorted_by(|a, b| a < b), "{map}");
+        }
+    }
+}

@@ -14,6 +14,7 @@ pub mod modelling;
 pub mod primitives;
 pub mod procedural;
 pub mod source;
+pub mod srgb;
 pub mod texture;
 
 pub use camera::Camera;

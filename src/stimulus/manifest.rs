@@ -1,5 +1,6 @@
-//! `manifest.json`: what each image of a rendered set is and where it came from.
+//! `manifest.json`: what each image of a set is and where it came from.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
@@ -76,9 +77,40 @@ pub struct ImageRecord {
     /// Technique label as it stands in trial rows (`blizzard24`).
     pub technique: String,
     /// The technique's parameters, resolved, in their units.
-    pub parameters: std::collections::BTreeMap<String, f64>,
-    /// Passes that ran, in order.
+    pub parameters: BTreeMap<String, f64>,
+    /// Passes that ran, in order; none for an image made elsewhere.
     pub passes: Vec<PassRecord>,
+    /// The file it was converted from; absent for an image that was rendered here.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<SourceRecord>,
+}
+
+/// The file an image made elsewhere came from, and what was done to it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SourceRecord {
+    /// The file as the set names it.
+    pub file: PathBuf,
+    /// SHA-256 of its bytes.
+    pub sha256: String,
+    /// `PNG`, `JPEG` or `OpenEXR`.
+    pub format: String,
+    /// Bits of one channel of one pixel.
+    pub bits_per_channel: u32,
+    /// `srgb`: shown as it is, reduced to 8 bits. `linear`: exposed, tone-mapped and encoded.
+    pub colour_space: String,
+    /// Whether the set said so, against what the file says or does not say.
+    pub colour_space_declared: bool,
+    /// Exposure in stops; absent for sRGB.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub exposure_ev: Option<f32>,
+    /// The tone map; absent for sRGB.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tone_map: Option<String>,
+    /// Share of pixels (0 to 1) with a channel outside what can be displayed, which was clipped.
+    pub clipped_share: f64,
+    /// What the set says about it: renderer, settings, licence, ….
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub metadata: BTreeMap<String, String>,
 }
 
 /// One pass of a frame and what it took.

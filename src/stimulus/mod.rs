@@ -1,8 +1,11 @@
 //! Stimuli: sets of image pairs, where each image came from, and whether it is
 //! still the image that was made.
 
+pub mod difference;
 pub mod files;
+pub mod loaded;
 pub mod manifest;
+pub mod pair_check;
 pub mod produce;
 pub mod set;
 pub mod sheet;

@@ -1,17 +1,20 @@
-//! Drawing a stimulus set: images first, the manifest last.
+//! Making a stimulus set: images first, the manifest last. Images are rendered here, or made
+//! elsewhere and converted; a set without rendered ones needs no GPU.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::files;
-use super::manifest::{self, ImageRecord, Manifest, PairRecord, StimulusError};
-use super::set::{SetCondition, StimulusSet};
+use super::loaded::LoadedImage;
+use super::manifest::{self, AdapterRecord, ImageRecord, Manifest, PairRecord, StimulusError};
+use super::pair_check;
+use super::set::{ImageSource, LoadedPair, RenderedPair, SetCondition, StimulusSet};
 use crate::digest;
 use crate::render::technique::Settings;
 use crate::render::{RenderError, Renderer, View};
 use crate::scene::SceneError;
 
-/// A set that could not be drawn.
+/// A set that could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum ProduceError {
     /// The frame.
@@ -23,6 +26,17 @@ pub enum ProduceError {
     /// The files.
     #[error(transparent)]
     Stimulus(#[from] StimulusError),
+    /// An image made elsewhere that cannot be taken.
+    #[error(transparent)]
+    Source(StimulusError),
+    /// Two images made elsewhere that do not belong together.
+    #[error("condition \"{condition}\": {message}")]
+    Pair {
+        /// The condition's id.
+        condition: String,
+        /// What is wrong.
+        message: String,
+    },
     /// No such condition.
     #[error("the set has no condition \"{wanted}\"; it has: {known}")]
     NoSuchCondition {
@@ -33,42 +47,215 @@ pub enum ProduceError {
     },
 }
 
-/// Draws `set`, or only the condition `only`, into `folder`, and writes its manifest.
+/// A set that was made.
+#[derive(Debug, Clone)]
+pub struct Produced {
+    /// What was written.
+    pub manifest: Manifest,
+    /// What whoever made the set should look at.
+    pub warnings: Vec<String>,
+}
+
+/// Makes `set`, or only the condition `only`, in `folder`, and writes its manifest.
 ///
-/// `progress` is called with what is about to be drawn. An image that two conditions share
-/// is drawn once and written for both.
+/// `open` opens the renderer, and is called only if something is rendered. `progress` is called
+/// with what is about to be made. An image that two conditions share is drawn once and written
+/// for both.
 ///
 /// # Errors
 /// [`ProduceError`]; the manifest is written last, so a folder that has one is whole.
 pub fn produce(
-    renderer: &Renderer,
+    open: &dyn Fn() -> Result<Renderer, RenderError>,
     set: &StimulusSet,
     folder: &Path,
     only: Option<&str>,
     progress: &mut dyn FnMut(&str),
-) -> Result<Manifest, ProduceError> {
+) -> Result<Produced, ProduceError> {
+    let chosen = choose(set, only)?;
+    std::fs::create_dir_all(folder).map_err(|source| StimulusError::Unwritable {
+        path: folder.to_owned(),
+        source,
+    })?;
+    let mut made = Made::default();
+    // First what needs no GPU and fails soonest.
+    for condition in &chosen {
+        if let ImageSource::Loaded(pair) = &condition.images {
+            made.loaded_pair(set, folder, condition, pair, progress)?;
+        }
+    }
+    if chosen
+        .iter()
+        .any(|c| matches!(c.images, ImageSource::Rendered(_)))
+    {
+        progress("opening the adapter");
+        let renderer = open()?;
+        made.adapter = Some(renderer.gpu().adapter.clone());
+        for scene in 0..set.scenes.len() {
+            made.scene(&renderer, set, folder, scene, &chosen, progress)?;
+        }
+    }
+    for pair in made.pairs.values() {
+        made.warnings.extend(pair_check::identical(pair));
+    }
+    let manifest = assemble(set, folder, only, made.adapter, made.pairs);
+    write_manifest(&manifest, folder)?;
+    Ok(Produced {
+        manifest,
+        warnings: made.warnings,
+    })
+}
+
+fn choose<'a>(
+    set: &'a StimulusSet,
+    only: Option<&str>,
+) -> Result<Vec<&'a SetCondition>, ProduceError> {
     let chosen: Vec<&SetCondition> = set
         .conditions
         .iter()
         .filter(|c| only.is_none_or(|only| c.id == only))
         .collect();
-    if chosen.is_empty() {
-        let known: Vec<&str> = set.conditions.iter().map(|c| c.id.as_str()).collect();
-        return Err(ProduceError::NoSuchCondition {
-            wanted: only.unwrap_or_default().to_owned(),
-            known: known.join(", "),
-        });
+    if !chosen.is_empty() {
+        return Ok(chosen);
     }
-    std::fs::create_dir_all(folder).map_err(|source| StimulusError::Unwritable {
-        path: folder.to_owned(),
-        source,
-    })?;
-    let mut pairs = BTreeMap::new();
-    for (index, scene) in set.scenes.iter().enumerate() {
-        let conditions: Vec<_> = chosen.iter().filter(|c| c.scene == index).collect();
-        if conditions.is_empty() {
-            continue;
+    let known: Vec<&str> = set.conditions.iter().map(|c| c.id.as_str()).collect();
+    Err(ProduceError::NoSuchCondition {
+        wanted: only.unwrap_or_default().to_owned(),
+        known: known.join(", "),
+    })
+}
+
+/// The manifest of what was made; with `only`, joined by what is there already, if that was
+/// made the same way.
+fn assemble(
+    set: &StimulusSet,
+    folder: &Path,
+    only: Option<&str>,
+    adapter: Option<AdapterRecord>,
+    mut pairs: BTreeMap<String, PairRecord>,
+) -> Manifest {
+    let mut manifest = Manifest {
+        schema_version: manifest::SCHEMA_VERSION,
+        set_id: set.id.clone(),
+        config_sha256: set.sha256.clone(),
+        seed: set.seed,
+        app_version: env!("CARGO_PKG_VERSION").to_owned(),
+        adapter,
+        pairs: Vec::new(),
+    };
+    let mut earlier = Vec::new();
+    if only.is_some()
+        && let Ok(found) = Manifest::load(folder)
+    {
+        // Converting images made elsewhere opens no adapter and says nothing against one.
+        let adapter = manifest.adapter.clone().or(found.adapter.clone());
+        let like = Manifest {
+            adapter: found.adapter.clone().and(adapter.clone()),
+            pairs: found.pairs.clone(),
+            ..manifest.clone()
+        };
+        if like == found {
+            manifest.adapter = adapter;
+            earlier = found.pairs;
         }
+    }
+    for condition in &set.conditions {
+        let kept = || earlier.iter().find(|pair| pair.condition == condition.id);
+        let pair = pairs.remove(&condition.id).or_else(|| kept().cloned());
+        manifest.pairs.extend(pair);
+    }
+    manifest
+}
+
+fn write_manifest(manifest: &Manifest, folder: &Path) -> Result<(), StimulusError> {
+    let path = folder.join(manifest::FILE_NAME);
+    let text =
+        serde_json::to_string_pretty(manifest).map_err(|error| StimulusError::Malformed {
+            path: path.clone(),
+            message: error.to_string(),
+        })?;
+    files::write_whole(&path, (text + "\n").as_bytes())
+}
+
+/// What has been made so far.
+#[derive(Default)]
+struct Made {
+    pairs: BTreeMap<String, PairRecord>,
+    adapter: Option<AdapterRecord>,
+    warnings: Vec<String>,
+}
+
+impl Made {
+    fn loaded_pair(
+        &mut self,
+        set: &StimulusSet,
+        folder: &Path,
+        condition: &SetCondition,
+        pair: &LoadedPair,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<(), ProduceError> {
+        let mut load = |image: &LoadedImage| {
+            progress(&format!("{} {}", condition.id, image.label));
+            image.load(set.size_px).map_err(ProduceError::Source)
+        };
+        let (first, second) = (load(&pair.first)?, load(&pair.second)?);
+        let found = pair_check::compare(&first.picture, &second.picture).map_err(|message| {
+            ProduceError::Pair {
+                condition: condition.id.clone(),
+                message,
+            }
+        })?;
+        let named = |warning| format!("condition \"{}\": {warning}", condition.id);
+        self.warnings.extend(found.into_iter().map(named));
+        let mut write = |image: &LoadedImage, loaded: super::loaded::Loaded| {
+            let file = file_name(condition, &image.label);
+            let path = folder.join(&file);
+            let bytes = files::encode_png(&path, &loaded.picture)?;
+            files::write_whole(&path, &bytes)?;
+            self.warnings.extend(loaded.warnings);
+            Ok::<_, StimulusError>(ImageRecord {
+                file,
+                sha256: digest::sha256_hex(&bytes),
+                width_px: loaded.picture.width_px,
+                height_px: loaded.picture.height_px,
+                technique: image.label.clone(),
+                parameters: BTreeMap::new(),
+                passes: Vec::new(),
+                source: Some(loaded.source),
+            })
+        };
+        let record = PairRecord {
+            condition: condition.id.clone(),
+            scene: pair.scene.clone(),
+            validity: condition.validity.clone(),
+            hypothesis: condition.hypothesis.clone(),
+            first: write(&pair.first, first)?,
+            second: write(&pair.second, second)?,
+        };
+        self.pairs.insert(condition.id.clone(), record);
+        Ok(())
+    }
+
+    /// Renders what the chosen conditions show of one scene.
+    fn scene(
+        &mut self,
+        renderer: &Renderer,
+        set: &StimulusSet,
+        folder: &Path,
+        index: usize,
+        chosen: &[&SetCondition],
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<(), ProduceError> {
+        let conditions: Vec<(&SetCondition, &RenderedPair)> = chosen
+            .iter()
+            .filter_map(|condition| match &condition.images {
+                ImageSource::Rendered(pair) if pair.scene == index => Some((*condition, pair)),
+                _ => None,
+            })
+            .collect();
+        if conditions.is_empty() {
+            return Ok(());
+        }
+        let scene = &set.scenes[index];
         progress(&format!("scene {}", scene.id));
         let geometry = scene.geometry.load()?;
         let surfaces = renderer.upload(&geometry)?;
@@ -79,47 +266,16 @@ pub fn produce(
             view: renderer.view(&surfaces),
             drawn: BTreeMap::new(),
         };
-        for condition in conditions {
-            pairs.insert(condition.id.as_str(), producer.pair(condition, progress)?);
+        for (condition, pair) in conditions {
+            let record = producer.pair(condition, pair, progress)?;
+            self.pairs.insert(condition.id.clone(), record);
         }
+        Ok(())
     }
-    let mut manifest = Manifest {
-        schema_version: manifest::SCHEMA_VERSION,
-        set_id: set.id.clone(),
-        config_sha256: set.sha256.clone(),
-        seed: set.seed,
-        app_version: env!("CARGO_PKG_VERSION").to_owned(),
-        adapter: Some(renderer.gpu().adapter.clone()),
-        pairs: Vec::new(),
-    };
-    // A part drawn again joins what is there, if that was made the same way.
-    let earlier = Manifest::load(folder).ok().filter(|earlier| {
-        only.is_some()
-            && Manifest {
-                pairs: Vec::new(),
-                ..earlier.clone()
-            } == manifest
-    });
-    for condition in &set.conditions {
-        let kept = || {
-            earlier
-                .as_ref()?
-                .pairs
-                .iter()
-                .find(|pair| pair.condition == condition.id)
-                .cloned()
-        };
-        manifest
-            .pairs
-            .extend(pairs.remove(condition.id.as_str()).or_else(kept));
-    }
-    let text =
-        serde_json::to_string_pretty(&manifest).map_err(|error| StimulusError::Malformed {
-            path: folder.join(manifest::FILE_NAME),
-            message: error.to_string(),
-        })?;
-    files::write_whole(&folder.join(manifest::FILE_NAME), (text + "\n").as_bytes())?;
-    Ok(manifest)
+}
+
+fn file_name(condition: &SetCondition, label: &str) -> PathBuf {
+    PathBuf::from(format!("{}--{label}.png", condition.id))
 }
 
 struct Producer<'a> {
@@ -134,36 +290,37 @@ impl Producer<'_> {
     fn pair(
         &mut self,
         condition: &SetCondition,
+        pair: &RenderedPair,
         progress: &mut dyn FnMut(&str),
     ) -> Result<PairRecord, ProduceError> {
-        let scene = &self.set.scenes[condition.scene];
         Ok(PairRecord {
             condition: condition.id.clone(),
-            scene: scene.id.clone(),
+            scene: condition.scene_id(self.set).to_owned(),
             validity: condition.validity.clone(),
             hypothesis: condition.hypothesis.clone(),
-            first: self.image(condition, &condition.first, progress)?,
-            second: self.image(condition, &condition.second, progress)?,
+            first: self.image(condition, pair, &pair.first, progress)?,
+            second: self.image(condition, pair, &pair.second, progress)?,
         })
     }
 
     fn image(
         &mut self,
         condition: &SetCondition,
+        pair: &RenderedPair,
         technique: &Settings,
         progress: &mut dyn FnMut(&str),
     ) -> Result<ImageRecord, ProduceError> {
-        let file = PathBuf::from(format!("{}--{}.png", condition.id, technique.label));
+        let file = file_name(condition, &technique.label);
         progress(&format!("{} {}", condition.id, technique.label));
         let path = self.folder.join(&file);
         let key = format!(
             "{} {} {:?}",
-            condition.lighting,
+            pair.lighting,
             technique.technique.name,
             technique.values()
         );
         if !self.drawn.contains_key(&key) {
-            let drawn = self.draw(condition, technique, &path)?;
+            let drawn = self.draw(pair, technique, &path)?;
             self.drawn.insert(key.clone(), drawn);
         }
         let (bytes, record) = &self.drawn[&key];
@@ -177,11 +334,11 @@ impl Producer<'_> {
 
     fn draw(
         &mut self,
-        condition: &SetCondition,
+        pair: &RenderedPair,
         technique: &Settings,
         path: &Path,
     ) -> Result<(Vec<u8>, ImageRecord), ProduceError> {
-        let frame = self.view.render(&self.set.request(condition, technique))?;
+        let frame = self.view.render(&self.set.request(pair, technique))?;
         let bytes = files::encode_png(path, &frame.picture)?;
         let record = ImageRecord {
             file: PathBuf::new(),
@@ -191,6 +348,7 @@ impl Producer<'_> {
             technique: technique.label.clone(),
             parameters: technique.values(),
             passes: frame.passes,
+            source: None,
         };
         Ok((bytes, record))
     }

@@ -1,23 +1,20 @@
 //! Stimulus sets: `stimuli/*.toml`, each a list of conditions, each two images of one scene
-//! that differ in the occlusion technique alone.
+//! that differ in the occlusion technique alone. The images are rendered from a scene config,
+//! or were made elsewhere and are named by their files.
 
-use std::collections::BTreeMap;
+mod file;
+mod resolve;
+
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
-use serde::de::{MapAccess, Visitor};
-use toml::Spanned;
-
-use crate::config::{self, ConfigError, quantity};
+use self::file::SetFile;
+use self::resolve::Loader;
+use super::loaded::LoadedImage;
+use crate::config::{self, ConfigError};
 use crate::digest;
-use crate::render::technique::{Settings, SettingsError};
+use crate::render::technique::Settings;
 use crate::render::{FrameRequest, Precision};
 use crate::scene::{SceneConfig, SceneError};
-
-quantity::quantity! {
-    /// Width or height of an image.
-    Pixels: u32, 1, 8192, "px"
-}
 
 /// A stimulus set, with the scenes it uses.
 #[derive(Debug, Clone)]
@@ -28,10 +25,11 @@ pub struct StimulusSet {
     pub path: PathBuf,
     /// For people.
     pub title: String,
-    /// Seed of kernels and noise.
+    /// Seed of kernels and noise; 0 where nothing is rendered.
     pub seed: u64,
-    /// Size of every image, pixels.
-    pub size_px: (u32, u32),
+    /// Size of every image, pixels; `None` where nothing is rendered and nothing was said: then
+    /// only the two images of a condition must be of one size.
+    pub size_px: Option<(u32, u32)>,
     /// How finely buffers are stored.
     pub precision: Precision,
     /// Whether every effect runs, called for or not.
@@ -49,18 +47,45 @@ pub struct StimulusSet {
 pub struct SetCondition {
     /// Id, as in trial rows.
     pub id: String,
-    /// Index into [`StimulusSet::scenes`].
-    pub scene: usize,
-    /// Name of the scene's lighting variant.
-    pub lighting: String,
     /// `low`, `moderate`, `high`, or what the study calls its levels.
     pub validity: String,
     /// What it asks.
     pub hypothesis: String,
+    /// Where its two images come from.
+    pub images: ImageSource,
+}
+
+/// Where the two images of a condition come from.
+#[derive(Debug, Clone)]
+pub enum ImageSource {
+    /// They are rendered from a scene of the set.
+    Rendered(RenderedPair),
+    /// They were made elsewhere.
+    Loaded(Box<LoadedPair>),
+}
+
+/// Two images to render.
+#[derive(Debug, Clone)]
+pub struct RenderedPair {
+    /// Index into [`StimulusSet::scenes`].
+    pub scene: usize,
+    /// Name of the scene's lighting variant.
+    pub lighting: String,
     /// Technique of the image that comes first in the base order.
     pub first: Settings,
     /// Technique of the other.
     pub second: Settings,
+}
+
+/// Two images made elsewhere.
+#[derive(Debug, Clone)]
+pub struct LoadedPair {
+    /// What trial rows call the scene.
+    pub scene: String,
+    /// The image that comes first in the base order.
+    pub first: LoadedImage,
+    /// The other.
+    pub second: LoadedImage,
 }
 
 /// A set that cannot be used: its own config is wrong, or a scene's.
@@ -74,84 +99,8 @@ pub enum SetError {
     Scene(#[from] SceneError),
 }
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SetFile {
-    id: Spanned<String>,
-    title: String,
-    seed: u64,
-    width_px: Pixels,
-    height_px: Pixels,
-    #[serde(default)]
-    precision: Precision,
-    condition: Vec<ConditionFile>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ConditionFile {
-    id: Spanned<String>,
-    scene: Spanned<PathBuf>,
-    lighting: Spanned<String>,
-    validity: Option<String>,
-    #[serde(default)]
-    hypothesis: String,
-    first: Spanned<TechniqueFile>,
-    second: Spanned<TechniqueFile>,
-}
-
-/// `"blizzard24"`, or `{ technique = "blizzard24", label = "blizzard24-wide", radius_m = 2 }`.
-#[derive(Debug)]
-struct TechniqueFile {
-    technique: String,
-    label: Option<String>,
-    parameters: BTreeMap<String, Spanned<f64>>,
-}
-
-impl<'de> Deserialize<'de> for TechniqueFile {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct TechniqueVisitor;
-        impl<'de> Visitor<'de> for TechniqueVisitor {
-            type Value = TechniqueFile;
-
-            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.write_str("a technique such as \"blizzard24\", or a table with `technique` and parameters")
-            }
-
-            fn visit_str<E>(self, label: &str) -> Result<TechniqueFile, E> {
-                Ok(TechniqueFile {
-                    technique: label.to_owned(),
-                    label: None,
-                    parameters: BTreeMap::new(),
-                })
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<TechniqueFile, A::Error> {
-                let (mut technique, mut label, mut parameters) = (None, None, BTreeMap::new());
-                while let Some(key) = map.next_key::<String>()? {
-                    match key.as_str() {
-                        "technique" => technique = Some(map.next_value()?),
-                        "label" => label = Some(map.next_value()?),
-                        _ => {
-                            parameters.insert(key, map.next_value()?);
-                        }
-                    }
-                }
-                let technique =
-                    technique.ok_or_else(|| serde::de::Error::missing_field("technique"))?;
-                Ok(TechniqueFile {
-                    technique,
-                    label,
-                    parameters,
-                })
-            }
-        }
-        deserializer.deserialize_any(TechniqueVisitor)
-    }
-}
-
 impl StimulusSet {
-    /// Reads a set and the scenes it names (paths are relative to the set's file).
+    /// Reads a set and the scenes it names; images made elsewhere are not opened (paths are relative to the set's file).
     ///
     /// # Errors
     /// [`SetError`] naming file, line, field, what was found and what is allowed.
@@ -168,17 +117,14 @@ impl StimulusSet {
         let error = |span: std::ops::Range<usize>, field: &str, message: &str| {
             ConfigError::at(path, text, Some(span), field, message)
         };
-        check_id(file.id.get_ref()).map_err(|message| error(file.id.span(), "id", &message))?;
+        resolve::check_id(file.id.get_ref())
+            .map_err(|message| error(file.id.span(), "id", &message))?;
         if file.condition.is_empty() {
             return Err(
                 ConfigError::whole_file(path, "a set needs at least one [[condition]]").into(),
             );
         }
-        let mut loader = Loader {
-            path,
-            text,
-            scenes: Vec::new(),
-        };
+        let mut loader = Loader::new(path, text);
         let mut conditions: Vec<SetCondition> = Vec::new();
         for (index, condition) in file.condition.iter().enumerate() {
             let field = format!("condition[{index}]");
@@ -192,12 +138,26 @@ impl StimulusSet {
         let texts: Vec<&str> = std::iter::once(text)
             .chain(loader.scenes.iter().map(|s| s.text.as_str()))
             .collect();
+        let renders = !loader.scenes.is_empty();
+        let missing = |key: &str| {
+            let message = format!("missing field `{key}`, which a set that renders images needs");
+            ConfigError::at(path, text, None, key, &message)
+        };
+        if renders && file.seed.is_none() {
+            return Err(missing("seed").into());
+        }
+        let size_px = match (file.width_px, file.height_px) {
+            (Some(width), Some(height)) => Some((width.get(), height.get())),
+            (None, None) if !renders => None,
+            (None, _) => return Err(missing("width_px").into()),
+            (_, None) => return Err(missing("height_px").into()),
+        };
         Ok(Self {
             id: file.id.into_inner(),
             path: path.to_owned(),
             title: file.title,
-            seed: file.seed,
-            size_px: (file.width_px.get(), file.height_px.get()),
+            seed: file.seed.unwrap_or(0),
+            size_px,
             precision: file.precision,
             all_effects: false,
             sha256: digest::sha256_hex(texts.join("\0").as_bytes()),
@@ -206,164 +166,49 @@ impl StimulusSet {
         })
     }
 
-    /// What to draw for one image of a condition.
+    /// The conditions that are rendered.
+    pub fn rendered(&self) -> impl Iterator<Item = (&SetCondition, &RenderedPair)> {
+        self.conditions.iter().filter_map(|c| match &c.images {
+            ImageSource::Rendered(pair) => Some((c, pair)),
+            ImageSource::Loaded(_) => None,
+        })
+    }
+
+    /// What to draw for one image of a rendered condition.
     ///
     /// # Panics
     /// Never for conditions of this set: their scene and lighting were checked when it was read.
     #[must_use]
-    pub fn request(&self, condition: &SetCondition, technique: &Settings) -> FrameRequest {
-        let scene = &self.scenes[condition.scene];
-        let lighting = &scene.lightings[&condition.lighting];
-        let mut request =
-            FrameRequest::new(scene, lighting, technique.clone(), self.size_px, self.seed);
+    pub fn request(&self, pair: &RenderedPair, technique: &Settings) -> FrameRequest {
+        let scene = &self.scenes[pair.scene];
+        let lighting = &scene.lightings[&pair.lighting];
+        // A set that renders says its size; the renderer refuses images without pixels.
+        let size_px = self.size_px.unwrap_or_default();
+        let mut request = FrameRequest::new(scene, lighting, technique.clone(), size_px, self.seed);
         request.precision = self.precision;
         request.all_effects = self.all_effects;
         request
     }
 }
 
-struct Loader<'a> {
-    path: &'a Path,
-    text: &'a str,
-    scenes: Vec<SceneConfig>,
-}
-
-impl Loader<'_> {
-    fn error(&self, span: std::ops::Range<usize>, field: &str, message: &str) -> ConfigError {
-        ConfigError::at(self.path, self.text, Some(span), field, message)
-    }
-
-    fn condition(&mut self, file: &ConditionFile, field: &str) -> Result<SetCondition, SetError> {
-        check_id(file.id.get_ref())
-            .map_err(|message| self.error(file.id.span(), &format!("{field}.id"), &message))?;
-        let scene = self.scene(&file.scene, field)?;
-        let lighting = file.lighting.get_ref();
-        self.scenes[scene].lighting(lighting).map_err(|message| {
-            self.error(file.lighting.span(), &format!("{field}.lighting"), &message)
-        })?;
-        let first = self.technique(scene, &file.first, &format!("{field}.first"))?;
-        let second = self.technique(scene, &file.second, &format!("{field}.second"))?;
-        if first.label == second.label {
-            let message = format!(
-                "both images are \"{}\"; give one of them a `label` of its own or another technique",
-                first.label
-            );
-            return Err(self
-                .error(file.second.span(), &format!("{field}.second"), &message)
-                .into());
-        }
-        Ok(SetCondition {
-            id: file.id.get_ref().clone(),
-            scene,
-            lighting: lighting.clone(),
-            validity: file.validity.clone().unwrap_or_else(|| lighting.clone()),
-            hypothesis: file.hypothesis.clone(),
-            first,
-            second,
-        })
-    }
-
-    fn scene(&mut self, file: &Spanned<PathBuf>, field: &str) -> Result<usize, SetError> {
-        let path = self
-            .path
-            .parent()
-            .unwrap_or(Path::new(""))
-            .join(file.get_ref());
-        if let Some(known) = self.scenes.iter().position(|scene| scene.path == path) {
-            return Ok(known);
-        }
-        if !path.is_file() {
-            let message = format!("there is no scene config {}", path.display());
-            return Err(self
-                .error(file.span(), &format!("{field}.scene"), &message)
-                .into());
-        }
-        let scene = SceneConfig::load(&path)?;
-        check_techniques(&scene)?;
-        self.scenes.push(scene);
-        Ok(self.scenes.len() - 1)
-    }
-
-    fn technique(
-        &self,
-        scene: usize,
-        file: &Spanned<TechniqueFile>,
-        field: &str,
-    ) -> Result<Settings, ConfigError> {
-        let choice = file.get_ref();
-        let scene = &self.scenes[scene];
-        let mut settings = Settings::from_label(&choice.technique)
-            .map_err(|error| self.error(file.span(), field, &error.message))?;
-        let name = settings.technique.name;
-        for (parameter, value) in scene.occlusion.techniques.get(name).into_iter().flatten() {
-            settings
-                .set_scene_default(parameter, *value.get_ref())
-                .map_err(|error| scene_error(scene, name, parameter, value, &error))?;
-        }
-        for (parameter, value) in &choice.parameters {
-            settings.set(parameter, *value.get_ref()).map_err(|error| {
-                self.error(
-                    value.span(),
-                    &format!("{field}.{parameter}"),
-                    &error.message,
-                )
-            })?;
-        }
-        if let Some(label) = &choice.label {
-            check_id(label).map_err(|message| self.error(file.span(), field, &message))?;
-            settings.label.clone_from(label);
-        }
-        Ok(settings)
-    }
-}
-
-/// Every `[technique.NAME]` table of a scene, whether the set uses it or not.
-fn check_techniques(scene: &SceneConfig) -> Result<(), ConfigError> {
-    for (name, parameters) in &scene.occlusion.techniques {
-        let mut settings = Settings::from_label(name).map_err(|error| {
-            ConfigError::at(
-                &scene.path,
-                &scene.text,
-                None,
-                &format!("technique.{name}"),
-                &error.message,
-            )
-        })?;
-        for (parameter, value) in parameters {
-            settings
-                .set(parameter, *value.get_ref())
-                .map_err(|error| scene_error(scene, name, parameter, value, &error))?;
+impl SetCondition {
+    /// What trial rows call the two images, in the base order.
+    #[must_use]
+    pub fn labels(&self) -> [&str; 2] {
+        match &self.images {
+            ImageSource::Rendered(pair) => [&pair.first.label, &pair.second.label],
+            ImageSource::Loaded(pair) => [&pair.first.label, &pair.second.label],
         }
     }
-    Ok(())
-}
 
-fn scene_error(
-    scene: &SceneConfig,
-    technique: &str,
-    parameter: &str,
-    value: &Spanned<f64>,
-    error: &SettingsError,
-) -> ConfigError {
-    let field = format!("technique.{technique}.{parameter}");
-    ConfigError::at(
-        &scene.path,
-        &scene.text,
-        Some(value.span()),
-        &field,
-        &error.message,
-    )
-}
-
-/// Ids become file names and columns of tables.
-fn check_id(id: &str) -> Result<(), String> {
-    let allowed = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
-    if !id.is_empty() && id.len() <= 64 && id.chars().all(allowed) && !id.starts_with('.') {
-        return Ok(());
+    /// What trial rows call the scene.
+    #[must_use]
+    pub fn scene_id<'a>(&'a self, set: &'a StimulusSet) -> &'a str {
+        match &self.images {
+            ImageSource::Rendered(pair) => &set.scenes[pair.scene].id,
+            ImageSource::Loaded(pair) => &pair.scene,
+        }
     }
-    Err(format!(
-        "found \"{id}\"; allowed are 1 to 64 letters, digits, '-', '_' and '.', not starting with '.'"
-    ))
 }
 
 #[cfg(test)]

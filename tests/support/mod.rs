@@ -123,6 +123,7 @@ fn pair(folder: &Path, n: usize, size_px: [u32; 2]) -> PairRecord {
             technique: String::from(technique),
             parameters: std::collections::BTreeMap::default(),
             passes: Vec::new(),
+            source: None,
         }
     };
     PairRecord {

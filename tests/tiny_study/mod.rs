@@ -117,6 +117,7 @@ fn image(folder: &Path, index: u8, which: u8, technique: &str) -> ImageRecord {
         technique: technique.to_owned(),
         parameters: std::collections::BTreeMap::new(),
         passes: Vec::new(),
+        source: None,
     }
 }
 

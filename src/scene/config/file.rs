@@ -7,6 +7,7 @@ use toml::Spanned;
 
 use super::TechniqueParameters;
 use crate::config::quantity;
+use crate::scene::ToneMap;
 
 quantity::quantity! {
     /// A vertical field of view.
@@ -156,10 +157,22 @@ fn yes() -> bool {
 
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub(super) enum ToneMapFile {
+pub(crate) enum ToneMapFile {
     None,
     ReinhardExtended { white: PositiveLight },
     Aces,
+}
+
+impl From<ToneMapFile> for ToneMap {
+    fn from(file: ToneMapFile) -> Self {
+        match file {
+            ToneMapFile::None => Self::None,
+            ToneMapFile::Aces => Self::Aces,
+            ToneMapFile::ReinhardExtended { white } => {
+                Self::ReinhardExtended { white: white.get() }
+            }
+        }
+    }
 }
 
 quantity::quantity! {

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::file::{
     AmbientFile, BackgroundFile, Colour, EnvironmentFile, Light, LightingFile, SceneFile, Stops,
-    SunFile, ToneMapFile,
+    SunFile,
 };
 use super::{Source, point};
 use crate::config::ConfigError;
@@ -69,13 +69,7 @@ pub(super) fn resolve(
         ambient,
         background,
         exposure_ev: merged.exposure_ev.map_or(0.0, Stops::get),
-        tone_map: match merged.tone_map {
-            None | Some(ToneMapFile::None) => ToneMap::None,
-            Some(ToneMapFile::Aces) => ToneMap::Aces,
-            Some(ToneMapFile::ReinhardExtended { white }) => {
-                ToneMap::ReinhardExtended { white: white.get() }
-            }
-        },
+        tone_map: merged.tone_map.map_or(ToneMap::None, ToneMap::from),
     })
 }
 

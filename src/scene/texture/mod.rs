@@ -9,7 +9,7 @@ use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
 use super::geometry::{Geometry, Material, Texture, TextureEncoding, Wrap};
-use super::modelling::math;
+use super::srgb::decode as decode_srgb;
 
 /// What a surface is like at one point.
 #[derive(Debug, Clone, Copy)]
@@ -67,15 +67,6 @@ impl SrgbEncoder {
     fn encode(&self, linear: f32) -> u8 {
         let code = self.thresholds.partition_point(|&t| t <= linear);
         u8::try_from(code).unwrap_or(u8::MAX)
-    }
-}
-
-/// The sRGB transfer function (IEC 61966-2-1), 0 to 1 both ways.
-fn decode_srgb(c: f32) -> f32 {
-    if c <= 0.04045 {
-        c / 12.92
-    } else {
-        math::pow((c + 0.055) / 1.055, 2.4)
     }
 }
 

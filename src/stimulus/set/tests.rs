@@ -89,14 +89,15 @@ fn assert_parts(message: &str, parts: &[&str]) {
 fn parameters_come_from_default_scene_label_and_set_in_that_order() {
     let set = Files::new(SCENE).parse(SET).unwrap();
     assert_eq!(set.scenes.len(), 1);
-    let (one, two) = (&set.conditions[0], &set.conditions[1]);
+    let pairs: Vec<_> = set.rendered().collect();
+    let ((_, one), (_, two)) = (pairs[0], pairs[1]);
     // The label's samples stand against the scene's; the scene's radius against the default.
     assert_eq!(one.second.get("samples"), 24.0);
     assert_eq!(one.second.get("radius_m"), 0.25);
     assert_eq!(two.second.get("radius_m"), 2.0);
     assert_eq!(two.second.label, "blizzard24-wide");
     assert_eq!(
-        (one.validity.as_str(), two.hypothesis.as_str()),
+        (pairs[0].0.validity.as_str(), pairs[1].0.hypothesis.as_str()),
         ("low", "H2")
     );
 }
@@ -177,4 +178,122 @@ fn wrong_technique_tables_of_a_scene_are_refused_in_the_scene_file() {
         &scene_message("[technique.blizzard]", "[technique.blizard]"),
         &["room.toml", "blizard"],
     );
+}
+
+/// A condition of images made elsewhere, to follow [`SET`] or to stand alone.
+const LOADED: &str = r#"
+[[condition]]
+id = "three"
+scene = "hall"
+validity = "high"
+first = { file = "pictures/a.png", technique = "none" }
+second = { file = "pictures/b.exr", technique = "path-traced", exposure_ev = 1, tone_map = "aces", metadata = { renderer = "Mitsuba 3" } }
+"#;
+
+const LOADED_HEAD: &str = "id = \"made\"\ntitle = \"Made elsewhere\"\n";
+
+/// The files need only be there for a set to be read.
+fn with_pictures() -> Files {
+    let files = Files::new(SCENE);
+    let pictures = files.dir.path().join("pictures");
+    std::fs::create_dir(&pictures).unwrap();
+    for name in ["a.png", "b.exr"] {
+        std::fs::write(pictures.join(name), "").unwrap();
+    }
+    files
+}
+
+fn loaded_message(from: &str, to: &str) -> String {
+    assert!(LOADED.contains(from));
+    let set = LOADED_HEAD.to_owned() + &LOADED.replacen(from, to, 1);
+    with_pictures().parse(&set).unwrap_err().to_string()
+}
+
+#[test]
+fn rendered_and_loaded_conditions_stand_side_by_side() {
+    let files = with_pictures();
+    let set = files.parse(&(SET.to_owned() + LOADED)).unwrap();
+    assert_eq!(set.rendered().count(), 2);
+    let condition = &set.conditions[2];
+    assert_eq!(condition.labels(), ["none", "path-traced"]);
+    assert_eq!(condition.scene_id(&set), "hall");
+    let ImageSource::Loaded(pair) = &condition.images else {
+        panic!("made elsewhere");
+    };
+    assert_eq!(pair.second.path, files.dir.path().join("pictures/b.exr"));
+    assert_eq!(pair.second.exposure_ev, Some(1.0));
+    assert_eq!(pair.second.metadata["renderer"], "Mitsuba 3");
+}
+
+#[test]
+fn a_set_of_files_needs_no_seed_and_no_size() {
+    let set = with_pictures()
+        .parse(&(LOADED_HEAD.to_owned() + LOADED))
+        .unwrap();
+    assert_eq!((set.seed, set.size_px), (0, None));
+    for key in ["seed = 4\n", "width_px = 64\n", "height_px = 48\n"] {
+        assert_parts(&message(key, ""), &[&key[..4], "renders"]);
+    }
+}
+
+#[test]
+fn wrong_loaded_conditions_are_refused_with_line_and_field() {
+    for (from, to, parts) in [
+        (
+            "a.png",
+            "c.png",
+            ["set.toml:8", "condition[0].first.file", "c.png"],
+        ),
+        (
+            "\"hall\"",
+            "\"a hall\"",
+            ["set.toml:6", "condition[0].scene", "letters"],
+        ),
+        (
+            "validity = \"high\"",
+            "lighting = \"high\"",
+            ["set.toml:7", "lighting", "validity"],
+        ),
+        (
+            "validity = \"high\"",
+            "",
+            ["set.toml:5", "condition[0].validity", "missing"],
+        ),
+        (
+            "\"none\"",
+            "\"path-traced\"",
+            ["set.toml:9", "both images", "path-traced"],
+        ),
+        (
+            "\"none\"",
+            "\"no ne\"",
+            ["set.toml:8", "condition[0].first.technique", "letters"],
+        ),
+        (
+            "exposure_ev = 1",
+            "exposure = 1",
+            ["set.toml:9", "`exposure`", "metadata"],
+        ),
+        (
+            "exposure_ev = 1",
+            "exposure_ev = 99",
+            ["set.toml:9", "exposure_ev", "-20 to 20"],
+        ),
+        (
+            "file = \"pictures/a.png\", ",
+            "",
+            [
+                "set.toml:9",
+                "condition[0].second",
+                "more than the occlusion",
+            ],
+        ),
+        (
+            "file = \"pictures/b.exr\", ",
+            "",
+            ["set.toml:9", "metadata", "file"],
+        ),
+    ] {
+        assert_parts(&loaded_message(from, to), &parts);
+    }
 }
