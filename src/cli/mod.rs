@@ -1,6 +1,7 @@
 //! The command line: one file a subcommand, no logic of its own.
 
 mod analyse;
+mod check;
 mod demo;
 mod logging;
 mod order;
@@ -32,6 +33,7 @@ enum Command {
     Demo(demo::Demo),
     #[command(visible_alias = "import")]
     Render(render::RenderArgs),
+    Check(check::Check),
     Run(Box<run::Run>),
     Order(order::Order),
     Analyse(analyse::AnalyseArgs),
@@ -104,6 +106,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
     match cli.command {
         Command::Demo(args) => demo::run(&args, verbosity),
         Command::Render(args) => render::run(&args, verbosity),
+        Command::Check(args) => check::run(&args, verbosity),
         Command::Run(args) => run::run(&args, verbosity),
         Command::Order(args) => order::run(&args),
         Command::Analyse(args) => analyse::run(&args),

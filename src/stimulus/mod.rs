@@ -1,6 +1,7 @@
 //! Stimuli: sets of image pairs, where each image came from, and whether it is
 //! still the image that was made.
 
+pub mod check;
 pub mod difference;
 pub mod files;
 pub mod loaded;
