@@ -10,11 +10,12 @@ use eframe::egui::{Context, Ui, ViewportCommand};
 use time::OffsetDateTime;
 use winit::window::Window;
 
+use super::browser::{Browser, Folder};
 use super::clock::Clock;
 use super::display::DisplayFacts;
 use super::pictures::Pictures;
 use super::sitting::Sitting;
-use super::start_page::{self, Enrolling, Facts, OnRecord, Request};
+use super::start_page::{self, Enrolling, Facts, Next, OnRecord, Request};
 use super::stimuli_check::StimuliCheck;
 use super::stimulus_view::SizePx;
 use super::theme;
@@ -22,7 +23,7 @@ use super::window::Content;
 use crate::protocol::Protocol;
 use crate::record::{Enrolment, InputDevice, OnsetMethod, ParticipantId, Study};
 use crate::session::start::{self, Setting};
-use crate::stimulus::Manifest;
+use crate::stimulus::{Manifest, StimulusSet};
 
 /// How long the window system has to cover the screen. Nobody reads instructions
 /// faster, so no image is on screen yet.
@@ -60,6 +61,8 @@ pub struct Application {
     participants: Result<Vec<String>, String>,
     enrolling: Enrolling,
     sitting: Option<Box<Sitting>>,
+    /// The stimulus browser, opened from the start page; never during a session.
+    browser: Option<Box<Browser>>,
     /// Since when the session should cover the screen; `None` once that is settled.
     covering_since: Option<Instant>,
     first_frame_seen: bool,
@@ -84,6 +87,7 @@ impl Application {
             participants: Ok(Vec::new()),
             enrolling: Enrolling::default(),
             sitting: None,
+            browser: None,
             covering_since: None,
             first_frame_seen: false,
             frames: 0,
@@ -157,9 +161,20 @@ impl Application {
                 Err(error) => OnRecord::Unreadable(error.to_string()),
             },
         };
-        if let Some(request) = start_page::show(ui, &facts, &mut self.enrolling) {
-            self.begin(ui.ctx(), &request, &display);
+        match start_page::show(ui, &facts, &mut self.enrolling) {
+            Some(Next::Stimuli) => self.browse(ui.ctx()),
+            Some(Next::Session(request)) => self.begin(ui.ctx(), &request, &display),
+            None => {}
         }
+    }
+
+    /// Puts the stimulus browser on the screen, on the folder that sessions show.
+    fn browse(&mut self, ctx: &Context) {
+        let setup = &self.setup;
+        let set = StimulusSet::load(&setup.protocol.stimulus_set(&setup.protocol_path)).ok();
+        let folder = Folder::with(&setup.stimuli, set).map_err(|error| error.to_string());
+        self.browser = Some(Box::new(Browser::of(ctx, folder).with_way_back()));
+        ctx.request_repaint();
     }
 
     /// Puts the session asked for on the screen, or says why not.
@@ -294,9 +309,18 @@ impl Content for Application {
     fn ui(&mut self, ui: &mut Ui) {
         self.refuse_to_close(ui.ctx());
         self.cover_screen(ui.ctx());
-        match &mut self.sitting {
-            Some(sitting) => sitting.ui(ui),
-            None => self.start_page(ui),
+        match (&mut self.sitting, &mut self.browser) {
+            (Some(sitting), _) => sitting.ui(ui),
+            (None, Some(browser)) => browser.ui(ui),
+            (None, None) => self.start_page(ui),
+        }
+        if self
+            .browser
+            .as_ref()
+            .is_some_and(|browser| browser.is_left())
+        {
+            self.browser = None;
+            ui.ctx().request_repaint();
         }
         self.stand_up(ui.ctx());
     }

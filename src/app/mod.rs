@@ -6,9 +6,12 @@
 //! application  start page, then one session after another
 //! sitting      one session on the screen: input in, picture out, rows to disk
 //! participant  one file a screen
+//! browser      the stimuli, for the experimenter alone
 //! ```
 
 pub mod application;
+pub mod browser;
+mod browser_window;
 pub mod clock;
 pub mod display;
 pub mod error;
@@ -25,6 +28,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 pub use application::{Application, Setup};
+pub use browser_window::browse;
 pub use display::available as display_available;
 pub use error::AppError;
 

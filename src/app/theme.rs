@@ -81,6 +81,63 @@ fn visuals() -> Visuals {
     visuals
 }
 
+/// Grey behind the pictures of the stimulus browser (8-bit sRGB).
+pub const BROWSER_STAGE: u8 = 96;
+const BROWSER_PAGE: u8 = 58;
+const BROWSER_INK: Color32 = Color32::from_gray(228);
+const BROWSER_QUIET_INK: Color32 = Color32::from_gray(176);
+
+/// Dark greys and smaller type, for judging pictures and reading much about them.
+pub fn install_browser(ui: &mut egui::Ui) {
+    let style = ui.style_mut();
+    style.visuals = browser_visuals();
+    for (role, size) in [
+        (TextStyle::Heading, 19.0),
+        (TextStyle::Body, 15.0),
+        (TextStyle::Button, 15.0),
+        (TextStyle::Small, 13.0),
+    ] {
+        let font = FontId::new(size, FontFamily::Proportional);
+        style.text_styles.insert(role, font);
+    }
+    let monospace = FontId::new(12.5, FontFamily::Monospace);
+    style.text_styles.insert(TextStyle::Monospace, monospace);
+    style.spacing.item_spacing = egui::vec2(8.0, 6.0);
+    style.spacing.button_padding = egui::vec2(10.0, 4.0);
+    style.spacing.interact_size.y = 28.0;
+    style.interaction.selectable_labels = true;
+}
+
+fn browser_visuals() -> Visuals {
+    let mut visuals = Visuals::dark();
+    visuals.panel_fill = Color32::from_gray(BROWSER_PAGE);
+    visuals.window_fill = Color32::from_gray(BROWSER_PAGE);
+    visuals.extreme_bg_color = Color32::from_gray(40);
+    visuals.faint_bg_color = Color32::from_gray(66);
+    visuals.hyperlink_color = BROWSER_INK;
+    visuals.warn_fg_color = BROWSER_INK;
+    visuals.error_fg_color = BROWSER_INK;
+    visuals.weak_text_color = Some(BROWSER_QUIET_INK);
+    visuals.selection.bg_fill = Color32::from_gray(112);
+    visuals.selection.stroke = Stroke::new(1.5, Color32::from_gray(250));
+    let widgets = &mut visuals.widgets;
+    for (widget, fill, line) in [
+        (&mut widgets.noninteractive, BROWSER_PAGE, 84),
+        (&mut widgets.inactive, 78, 104),
+        (&mut widgets.hovered, 92, 150),
+        (&mut widgets.active, 112, 228),
+        (&mut widgets.open, 92, 150),
+    ] {
+        widget.bg_fill = Color32::from_gray(fill);
+        widget.weak_bg_fill = Color32::from_gray(fill);
+        widget.bg_stroke = Stroke::new(1.0, Color32::from_gray(line));
+        widget.fg_stroke = Stroke::new(1.5, BROWSER_INK);
+        widget.corner_radius = 3.into();
+        widget.expansion = 0.0;
+    }
+    visuals
+}
+
 /// A button that is found first: a dark field, the same on every grey.
 pub fn primary_button(text: &str, min_size: egui::Vec2) -> egui::Button<'_> {
     let text = egui::RichText::new(text).color(Color32::from_gray(250));
@@ -113,6 +170,16 @@ pub fn paint_tick(painter: &egui::Painter, centre: egui::Pos2, size: f32, ink: C
     painter.line(points, Stroke::new(size * 0.14, ink));
 }
 
+/// A cross in a square of side `size` points.
+pub fn paint_cross(painter: &egui::Painter, centre: egui::Pos2, size: f32, ink: Color32) {
+    let reach = egui::vec2(size, size) * 0.32;
+    let across = egui::vec2(reach.x, -reach.y);
+    let stroke = Stroke::new(size * 0.14, ink);
+    for way in [reach, across] {
+        painter.line_segment([centre - way, centre + way], stroke);
+    }
+}
+
 /// A tick or a cross in front of a line of text.
 pub fn mark(ui: &mut egui::Ui, good: bool) {
     let size = ui.text_style_height(&TextStyle::Body) * 0.8;
@@ -121,13 +188,7 @@ pub fn mark(ui: &mut egui::Ui, good: bool) {
     if good {
         paint_tick(ui.painter(), centre, size, INK);
     } else {
-        let reach = egui::vec2(size, size) * 0.32;
-        let across = egui::vec2(reach.x, -reach.y);
-        let stroke = Stroke::new(size * 0.14, INK);
-        for way in [reach, across] {
-            ui.painter()
-                .line_segment([centre - way, centre + way], stroke);
-        }
+        paint_cross(ui.painter(), centre, size, INK);
     }
 }
 
@@ -182,7 +243,12 @@ mod tests {
 
     #[test]
     fn every_colour_is_a_grey() {
-        let visuals = visuals();
+        for visuals in [visuals(), browser_visuals()] {
+            assert_grey(&visuals);
+        }
+    }
+
+    fn assert_grey(visuals: &Visuals) {
         let widgets = &visuals.widgets;
         let colours = [
             visuals.panel_fill,

@@ -94,7 +94,7 @@ pub fn run(args: &Demo, verbosity: Verbosity) -> Result<(), Failure> {
 
 /// The rendered set: drawn now, or already there and unchanged.
 fn stimuli(set: &StimulusSet, args: &Demo, verbosity: Verbosity) -> Result<PathBuf, Failure> {
-    let folder = render::default_folder(set);
+    let folder = set.default_folder();
     let whole = |manifest: &Manifest| {
         manifest.config_sha256 == set.sha256
             && manifest.app_version == env!("CARGO_PKG_VERSION")

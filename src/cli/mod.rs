@@ -1,6 +1,7 @@
 //! The command line: one file a subcommand, no logic of its own.
 
 mod analyse;
+mod browse;
 mod check;
 mod demo;
 mod logging;
@@ -34,6 +35,7 @@ enum Command {
     #[command(visible_alias = "import")]
     Render(render::RenderArgs),
     Check(check::Check),
+    Browse(browse::Browse),
     Run(Box<run::Run>),
     Order(order::Order),
     Analyse(analyse::AnalyseArgs),
@@ -107,6 +109,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Demo(args) => demo::run(&args, verbosity),
         Command::Render(args) => render::run(&args, verbosity),
         Command::Check(args) => check::run(&args, verbosity),
+        Command::Browse(args) => browse::run(&args),
         Command::Run(args) => run::run(&args, verbosity),
         Command::Order(args) => order::run(&args),
         Command::Analyse(args) => analyse::run(&args),

@@ -6,7 +6,7 @@ use std::time::Instant;
 use clap::Args;
 
 use super::{Failure, Verbosity};
-use crate::render::plan::{FramePlan, GeometryFacts};
+use crate::render::plan::GeometryFacts;
 use crate::render::{Gpu, Precision, Renderer};
 use crate::stimulus::produce::{self, ProduceError};
 use crate::stimulus::set::ImageSource;
@@ -68,7 +68,7 @@ pub fn run(args: &RenderArgs, verbosity: Verbosity) -> Result<(), Failure> {
         None => {}
     }
     set.all_effects = args.all_effects;
-    let folder = args.out.clone().unwrap_or_else(|| default_folder(&set));
+    let folder = args.out.clone().unwrap_or_else(|| set.default_folder());
     if args.explain {
         return explain(&set, args.only.as_deref(), &folder);
     }
@@ -93,12 +93,6 @@ pub fn run(args: &RenderArgs, verbosity: Verbosity) -> Result<(), Failure> {
         folder.display()
     );
     Ok(())
-}
-
-/// Where the images of a set lie unless somebody says otherwise.
-#[must_use]
-pub fn default_folder(set: &StimulusSet) -> PathBuf {
-    set.path.with_file_name(&set.id)
 }
 
 /// A drawn set.
@@ -235,12 +229,7 @@ fn explain(set: &StimulusSet, only: Option<&str>, folder: &Path) -> Result<(), F
             let ran = drawn.as_ref().map_or(&[][..], |drawn| {
                 drawn.passes_of(&condition.id, &technique.label)
             });
-            let facts = GeometryFacts {
-                // Whether surfaces cover every pixel is known of a frame that was drawn.
-                uncovered: (!ran.is_empty()).then(|| ran.iter().any(|r| r.pass == "skybox")),
-                ..facts
-            };
-            let plan = FramePlan::new(&set.request(pair, technique), facts);
+            let plan = set.plan(pair, technique, facts, ran);
             println!("{}", technique.label);
             print!("{}", plan.tree(ran));
         }

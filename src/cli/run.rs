@@ -182,7 +182,7 @@ pub fn prepare(protocol_path: &Path, stimuli: Option<&Path>) -> Result<Prepared,
 /// The images of a set where `greyfield render` puts them, drawn from the set as it is now.
 fn rendered(set_path: &Path) -> Result<(Manifest, PathBuf), Failure> {
     let set = StimulusSet::load(set_path).map_err(Failure::bad_input)?;
-    let folder = super::render::default_folder(&set);
+    let folder = set.default_folder();
     let manifest = load(&folder, set_path)?;
     let drawn: Vec<&str> = manifest
         .pairs

@@ -10,8 +10,10 @@ use std::path::{Path, PathBuf};
 use self::file::SetFile;
 use self::resolve::Loader;
 use super::loaded::LoadedImage;
+use super::manifest::PassRecord;
 use crate::config::{self, ConfigError};
 use crate::digest;
+use crate::render::plan::{FramePlan, GeometryFacts};
 use crate::render::technique::Settings;
 use crate::render::{FrameRequest, Precision};
 use crate::scene::{SceneConfig, SceneError};
@@ -188,6 +190,32 @@ impl StimulusSet {
         request.precision = self.precision;
         request.all_effects = self.all_effects;
         request
+    }
+}
+
+impl StimulusSet {
+    /// The plan of one image; `ran` is what ran when it was drawn, and may be empty.
+    #[must_use]
+    pub fn plan(
+        &self,
+        pair: &RenderedPair,
+        technique: &Settings,
+        facts: GeometryFacts,
+        ran: &[PassRecord],
+    ) -> FramePlan {
+        let facts = GeometryFacts {
+            // Whether surfaces cover every pixel is known of a frame that was drawn.
+            uncovered: (!ran.is_empty()).then(|| ran.iter().any(|pass| pass.pass == "skybox")),
+            ..facts
+        };
+        FramePlan::new(&self.request(pair, technique), facts)
+    }
+
+    /// Where the images lie unless somebody says otherwise: a folder beside the config, named
+    /// like the set.
+    #[must_use]
+    pub fn default_folder(&self) -> PathBuf {
+        self.path.with_file_name(&self.id)
     }
 }
 

@@ -53,7 +53,28 @@ fn row_height(row: &[RgbImage; 2]) -> u32 {
 }
 
 fn thumbnail(record: &ImageRecord, folder: &Path) -> Result<RgbImage, StimulusError> {
-    let picture = record.load(folder)?;
+    Ok(resized(
+        &record.load(folder)?,
+        THUMBNAIL_PX,
+        FilterType::CatmullRom,
+    ))
+}
+
+/// A picture made smaller, `width_px` columns wide, in its own proportions.
+#[must_use]
+pub fn shrink(picture: &Picture, width_px: u32, filter: FilterType) -> Picture {
+    let small = resized(picture, width_px, filter);
+    Picture {
+        width_px: small.width(),
+        height_px: small.height(),
+        rgba8: small
+            .pixels()
+            .flat_map(|p| [p[0], p[1], p[2], 255])
+            .collect(),
+    }
+}
+
+fn resized(picture: &Picture, width_px: u32, filter: FilterType) -> RgbImage {
     let image = RgbImage::from_fn(picture.width_px, picture.height_px, |x, y| {
         let at = 4 * (y as usize * picture.width_px as usize + x as usize);
         Rgb([
@@ -62,13 +83,8 @@ fn thumbnail(record: &ImageRecord, folder: &Path) -> Result<RgbImage, StimulusEr
             picture.rgba8[at + 2],
         ])
     });
-    let height = (u64::from(picture.height_px) * u64::from(THUMBNAIL_PX)
+    let height_px = (u64::from(picture.height_px) * u64::from(width_px)
         / u64::from(picture.width_px.max(1)))
     .clamp(1, 8192) as u32;
-    Ok(imageops::resize(
-        &image,
-        THUMBNAIL_PX,
-        height,
-        FilterType::CatmullRom,
-    ))
+    imageops::resize(&image, width_px, height_px, filter)
 }

@@ -26,8 +26,17 @@ pub enum Request {
     Resume(ParticipantId),
 }
 
+/// Where to go from this page.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Next {
+    /// Into a session.
+    Session(Request),
+    /// To the stimuli, before anybody takes part.
+    Stimuli,
+}
+
 /// Draws the page.
-pub fn show(ui: &mut Ui, facts: &Facts<'_>, enrolling: &mut Enrolling) -> Option<Request> {
+pub fn show(ui: &mut Ui, facts: &Facts<'_>, enrolling: &mut Enrolling) -> Option<Next> {
     let screen = ui.ctx().viewport_rect();
     stimulus_view::paint_grey(ui.ctx(), theme::PAGE);
     let width = WIDTH.min(screen.width() - 48.0).max(1.0);
@@ -42,7 +51,10 @@ pub fn show(ui: &mut Ui, facts: &Facts<'_>, enrolling: &mut Enrolling) -> Option
                 heading(ui, facts);
                 let request = enrolment::show(ui, facts, enrolling);
                 facts::show(ui, facts);
-                request
+                if ui.button("Look at the stimuli").clicked() {
+                    return Some(Next::Stimuli);
+                }
+                request.map(Next::Session)
             })
             .inner
     })
