@@ -213,6 +213,23 @@ fn an_interrupted_session_goes_on_after_a_confirmation() {
 }
 
 #[test]
+fn the_stimuli_are_looked_at_from_the_start_page_and_never_from_a_session() {
+    let study = Tiny::new(1, SIZE_PX);
+    let mut lab = Lab::open(&study, true);
+    lab.click("Look at the stimuli");
+    lab.harness.get_by_label("Difference");
+    lab.press(Key::Escape);
+    lab.type_id("P01");
+    lab.click("Start session");
+    for key in [Key::Escape, Key::Space, Key::B] {
+        lab.press(key);
+        assert!(lab.harness.query_by_label("Difference").is_none());
+    }
+    let technique = &study.manifest.pairs[0].second.technique;
+    assert!(lab.harness.query_by_label_contains(technique).is_none());
+}
+
+#[test]
 fn a_changed_image_keeps_any_session_from_starting() {
     let study = Tiny::new(1, SIZE_PX);
     let image = &study.manifest.pairs[0].second;
