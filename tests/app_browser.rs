@@ -183,6 +183,7 @@ fn the_wheel_magnifies_at_the_pointer_and_the_line_names_its_pixel() {
             delta: Vec2::new(0.0, 100.0),
             modifiers: egui::Modifiers::NONE,
             phase: egui::TouchPhase::Move,
+            source: egui::MouseWheelSource::Unknown,
         });
         looking.frames(12);
     }
