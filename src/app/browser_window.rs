@@ -18,12 +18,12 @@ use super::{AppError, START_PAGE, check_display, theme, window};
 pub fn browse(folder: Folder) -> Result<(), AppError> {
     check_display()?;
     let title = format!("Greyfield: {}", folder.manifest.set_id);
-    let content = BrowserWindow::Opening(Some(folder));
+    let content = BrowserWindow::Opening(Some(Box::new(folder)));
     window::run(&title, START_PAGE, &(Rc::new(RefCell::new(content)) as _))
 }
 
 enum BrowserWindow {
-    Opening(Option<Folder>),
+    Opening(Option<Box<Folder>>),
     Open(Box<Browser>),
 }
 
@@ -39,7 +39,7 @@ impl window::Content for BrowserWindow {
         if let Self::Opening(folder) = self
             && let Some(folder) = folder.take()
         {
-            *self = Self::Open(Box::new(Browser::of(ctx, Ok(folder))));
+            *self = Self::Open(Box::new(Browser::of(ctx, Ok(*folder))));
         }
     }
 

@@ -6,6 +6,7 @@ use half::f16;
 use super::frame::{FrameRequest, Precision};
 use super::readback::{FloatImage, Readback};
 use super::{RenderError, View};
+use crate::scene::srgb;
 use crate::stimulus::manifest::Picture;
 
 /// One of the buffers that a frame is made of.
@@ -93,7 +94,7 @@ impl View<'_> {
                 let at = 8 * texel + 2 * c;
                 f16::from_le_bytes([radiance[at], radiance[at + 1]]).to_f32() * exposure
             };
-            [0, 1, 2].map(|c| byte(srgb_encode(channel(c).clamp(0.0, 1.0))))
+            [0, 1, 2].map(|c| byte(srgb::encode(channel(c).clamp(0.0, 1.0))))
         };
         let depth_scale = DepthScale::of(&depth, far_m);
         Ok(vec![
@@ -211,13 +212,4 @@ fn octahedral_decode(encoded: Vec2) -> Vec3 {
 
 fn byte(value: f32) -> u8 {
     (value * 255.0).round() as u8
-}
-
-/// IEC 61966-2-1.
-fn srgb_encode(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 {
-        linear * 12.92
-    } else {
-        1.055 * linear.powf(1.0 / 2.4) - 0.055
-    }
 }

@@ -2,56 +2,13 @@
 
 use crate::render::plan::GeometryFacts;
 use crate::render::technique::Settings;
-use crate::render::{FloatImage, Gpu, Renderer};
+use crate::render::{Buffer, Gpu, Renderer};
 use crate::scene::Geometry;
 use crate::stimulus::StimulusSet;
 use crate::stimulus::manifest::{PairRecord, Picture};
 use crate::stimulus::set::RenderedPair;
 
-/// One target of a frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Buffer {
-    /// Diffuse colour.
-    Albedo,
-    /// View-space normals.
-    Normals,
-    /// Linear depth.
-    Depth,
-    /// The occlusion coefficient, 1 is open.
-    Occlusion,
-    /// Radiance before the tone map.
-    Light,
-    /// The image.
-    Final,
-}
-
-impl Buffer {
-    /// All of them, in the order of a frame.
-    pub const ALL: [Self; 6] = [
-        Self::Albedo,
-        Self::Normals,
-        Self::Depth,
-        Self::Occlusion,
-        Self::Light,
-        Self::Final,
-    ];
-
-    /// As it stands on its button.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Albedo => "Albedo",
-            Self::Normals => "Normals",
-            Self::Depth => "Depth",
-            Self::Occlusion => "Occlusion",
-            Self::Light => "Light",
-            Self::Final => "Final",
-        }
-    }
-}
-
-/// Draws one image of a rendered condition again, on this machine's adapter: the targets the
-/// renderer hands out.
+/// Draws one image of a rendered condition again, on this machine's adapter: its buffers.
 ///
 /// # Errors
 /// Scene, adapter or driver, in words.
@@ -66,15 +23,10 @@ pub fn redraw(
         .upload(&geometry)
         .map_err(|error| error.to_string())?;
     drop(geometry);
-    let frame = renderer
-        .render(&surfaces, &set.request(pair, technique))
-        .map_err(|error| error.to_string())?;
-    let mut buffers = Vec::new();
-    if let Some(occlusion) = &frame.occlusion {
-        buffers.push((Buffer::Occlusion, grey(occlusion)));
-    }
-    buffers.push((Buffer::Final, frame.picture));
-    Ok(buffers)
+    renderer
+        .view(&surfaces)
+        .buffers(&set.request(pair, technique))
+        .map_err(|error| error.to_string())
 }
 
 /// The frame plans of a rendered pair, as text, with the times on record.
@@ -98,19 +50,4 @@ pub fn plans(
 fn geometry(set: &StimulusSet, pair: &RenderedPair) -> Result<Geometry, String> {
     let scene = &set.scenes[pair.scene];
     scene.geometry.load().map_err(|error| error.to_string())
-}
-
-/// Values from 0 to 1 as greys; shown as they are, for reading and not for judging.
-fn grey(image: &FloatImage) -> Picture {
-    let level = |value: &f32| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
-    Picture {
-        width_px: image.width_px,
-        height_px: image.height_px,
-        rgba8: image
-            .values
-            .iter()
-            .map(level)
-            .flat_map(|level| [level, level, level, 255])
-            .collect(),
-    }
 }

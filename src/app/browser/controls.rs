@@ -2,9 +2,9 @@
 
 use eframe::egui::{Ui, vec2};
 
-use super::buffers::Buffer;
 use super::pair::GAINS;
 use super::{Browser, Look};
+use crate::render::Buffer;
 
 /// Draws the controls and does what they ask.
 pub(super) fn show(browser: &mut Browser, ui: &mut Ui) {
@@ -33,7 +33,7 @@ pub(super) fn show(browser: &mut Browser, ui: &mut Ui) {
         ui.separator();
         for buffer in Buffer::ALL {
             let look = Look::Buffer(buffer);
-            ui.selectable_value(&mut browser.look, look, buffer.name());
+            ui.selectable_value(&mut browser.look, look, title_case(buffer.name()));
         }
     });
 }
@@ -70,9 +70,17 @@ fn looks(browser: &mut Browser, ui: &mut Ui) {
         ui.selectable_value(&mut browser.look, look, name)
             .on_hover_text(key);
     }
-    if browser.look == Look::Difference {
+    // Always there, so that nothing moves when the difference is chosen.
+    ui.add_enabled_ui(browser.look == Look::Difference, |ui| {
         for gain in GAINS {
             ui.selectable_value(&mut browser.gain, gain, format!("×{gain}"));
         }
-    }
+    });
+}
+
+/// A name as it stands on a button.
+fn title_case(name: &str) -> String {
+    let mut letters = name.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters).collect()
 }

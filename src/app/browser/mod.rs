@@ -13,7 +13,7 @@
 //! ```
 
 mod background;
-pub mod buffers;
+mod buffers;
 mod controls;
 mod facts;
 mod folder;
@@ -27,12 +27,12 @@ use std::path::Path;
 
 use eframe::egui::{CentralPanel, Context, Frame, Key, Panel, Ui};
 
-use self::buffers::Buffer;
 use self::facts::Sheet;
 pub use self::folder::Folder;
 use self::opened::Opened;
 use self::stage::Stage;
 use super::theme;
+use crate::render::Buffer;
 use crate::stimulus::manifest::PairRecord;
 
 /// How the pair is looked at.

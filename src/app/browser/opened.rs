@@ -4,12 +4,13 @@ use eframe::egui::{Context, ScrollArea, TextureHandle, Ui};
 
 use super::Look;
 use super::background::Task;
-use super::buffers::{self, Buffer};
+use super::buffers;
 use super::facts::{self, Sheet};
 use super::folder::Folder;
 use super::gallery::Gallery;
 use super::pair::{self, Pair};
 use super::stage::{self, Content, Stage};
+use crate::render::Buffer;
 use crate::stimulus::manifest::{PairRecord, Picture};
 use crate::stimulus::set::{ImageSource, RenderedPair};
 
@@ -210,8 +211,8 @@ impl Opened {
                     return stage.show(ui, &Content::One(texture));
                 }
                 let text = format!(
-                    "There is no {} buffer: no pass of this frame writes one that can be read.",
-                    buffer.name().to_lowercase()
+                    "There is no {} buffer: no pass of this frame writes it.",
+                    buffer.name()
                 );
                 stage::note(ui, &text, false);
             }
