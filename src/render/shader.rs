@@ -8,6 +8,7 @@ const PARTS: &[(&str, &str)] = &[
     ("fullscreen", include_str!("shaders/common/fullscreen.wgsl")),
     ("octahedral", include_str!("shaders/common/octahedral.wgsl")),
     ("occlusion", include_str!("shaders/common/occlusion.wgsl")),
+    ("sampling", include_str!("shaders/material/sampling.wgsl")),
     ("display", include_str!("shaders/display.wgsl")),
     ("light", include_str!("shaders/lighting/light.wgsl")),
     ("place", include_str!("shaders/lighting/place.wgsl")),

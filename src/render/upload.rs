@@ -100,7 +100,6 @@ impl Samplers {
                 mag_filter: wgpu::FilterMode::Linear,
                 min_filter: wgpu::FilterMode::Linear,
                 mipmap_filter: wgpu::MipmapFilterMode::Linear,
-                anisotropy_clamp: 4,
                 ..wgpu::SamplerDescriptor::default()
             })
         }))
