@@ -1,7 +1,7 @@
 //! Blocks with bevelled edges. Real masonry has no razor edges, and it is the
 //! bevels that catch the light and hold the small occlusion.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use super::builder::{MeshBuilder, box_uv_m};
 use super::math::Frame;
@@ -97,9 +97,72 @@ pub fn hexahedron(builder: &mut MeshBuilder, corners_m: &[Vec3; 8], bevel_m: f32
     }
 }
 
+/// A slab with a convex outline (x, z in metres, turning from +x towards +z), its upper
+/// edge bevelled. The top is `top_m` high at the outline's middle and rises by
+/// `slant` metres a metre; it has no under side.
+pub fn prism(
+    builder: &mut MeshBuilder,
+    outline_m: &[Vec2],
+    top_m: f32,
+    slant: Vec2,
+    thickness_m: f32,
+    bevel_m: f32,
+) {
+    let n = outline_m.len();
+    let middle = outline_m.iter().sum::<Vec2>() / n as f32;
+    let up = Vec3::new(-slant.x, 1.0, -slant.y).normalize();
+    let at = |p: Vec2, drop_m: f32| Vec3::new(p.x, top_m + slant.dot(p - middle) - drop_m, p.y);
+    let inset = |p: Vec2| p + (middle - p).normalize_or_zero() * (1.4 * bevel_m);
+    let top: Vec<u32> = outline_m
+        .iter()
+        .map(|&p| {
+            let p = at(inset(p), 0.0);
+            builder.corner(p, up, box_uv_m(p, up))
+        })
+        .collect();
+    for k in 1..n - 1 {
+        builder.triangle([top[0], top[k + 1], top[k]]);
+    }
+    for i in 0..n {
+        let (p, q) = (outline_m[i], outline_m[(i + 1) % n]);
+        let out = Vec3::new(q.y - p.y, 0.0, p.x - q.x).normalize_or(Vec3::X);
+        let rim = [(at(inset(p), 0.0), up), (at(inset(q), 0.0), up)];
+        let edge = [(at(q, bevel_m), out), (at(p, bevel_m), out)];
+        let foot = [(at(q, thickness_m), out), (at(p, thickness_m), out)];
+        for strip in [
+            [rim[0], rim[1], edge[0], edge[1]],
+            [edge[1], edge[0], foot[0], foot[1]],
+        ] {
+            let [a, b, c, d] = strip.map(|(p, n)| builder.corner(p, n, box_uv_m(p, up)));
+            builder.triangle([a, b, c]);
+            builder.triangle([a, c, d]);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Seen from above, the top of a prism covers its outline but for the bevel, and all
+    /// of it faces where its normals say.
+    #[test]
+    fn a_prism_faces_up_and_outwards() {
+        let mut builder = MeshBuilder::new();
+        let outline = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]].map(Vec2::from);
+        prism(&mut builder, &outline, 0.0, Vec2::ZERO, 0.1, 0.01);
+        let mesh = builder.finish("prism", 0, 1.0);
+        let mut seen_from_above = 0.0;
+        for c in mesh.indices.chunks_exact(3) {
+            let v = [0, 1, 2].map(|k| mesh.vertices[c[k] as usize]);
+            let p = v.map(|v| Vec3::from(v.position_m));
+            let face = (p[1] - p[0]).cross(p[2] - p[0]);
+            let mean: Vec3 = v.iter().map(|v| Vec3::from(v.normal)).sum();
+            assert!(face.dot(mean) > 0.0, "{face} {mean}");
+            seen_from_above += 0.5 * face.y.max(0.0);
+        }
+        assert!((seen_from_above - 2.0).abs() < 1e-4, "{seen_from_above}");
+    }
 
     /// Divergence theorem: the volume of a closed, outward-facing mesh. A unit cube
     /// loses a prism of ½ b² along each edge and more at the corners.

@@ -2,6 +2,7 @@
 //! a brick is as large on a column as on a wall.
 
 use glam::{Vec2, Vec3};
+use rayon::prelude::*;
 
 use super::math::{Frame, perpendicular};
 use crate::scene::geometry::{Mesh, Vertex};
@@ -85,6 +86,29 @@ impl MeshBuilder {
         let [a, b, c, d] = corners_m.map(|p| self.corner(p, normal, box_uv_m(p, normal)));
         self.triangle([a, b, c]);
         self.triangle([a, c, d]);
+    }
+
+    /// Adds a flat quadrilateral like [`MeshBuilder::quad`], cut into pieces no larger
+    /// than `step_m`, so that corner colours can vary over it.
+    pub fn panel(&mut self, corners_m: [Vec3; 4], step_m: f32) {
+        let [a, b, c, d] = corners_m;
+        let normal = (c - a).cross(d - b).normalize_or(Vec3::Y);
+        let pieces = |p: Vec3, q: Vec3| (p.distance(q) / step_m).ceil().max(1.0) as u32;
+        let columns = pieces(a, b).max(pieces(d, c));
+        let rows = pieces(b, c).max(pieces(a, d));
+        self.sheet_with_normals(columns, rows, |s, t| {
+            let p = a.lerp(b, s).lerp(d.lerp(c, s), t);
+            (p, normal, box_uv_m(p, normal))
+        });
+    }
+
+    /// Multiplies the colour of every corner by `color` of its position and normal.
+    pub fn stain(&mut self, color: impl Fn(Vec3, Vec3) -> Vec3 + Sync) {
+        let places = self.positions_m.par_iter().zip(&self.normals);
+        self.colors
+            .par_iter_mut()
+            .zip(places)
+            .for_each(|(corner, (&p, &n))| *corner *= color(p, n));
     }
 
     /// Adds a curved sheet of `columns` × `rows` quadrilaterals. `at(s, t)` gives

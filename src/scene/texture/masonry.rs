@@ -1,4 +1,4 @@
-//! Things laid in courses: ashlar, brick, floor tiles.
+//! Things laid in courses: ashlar, brick.
 
 use glam::{IVec2, IVec3, Vec2, Vec3};
 
@@ -51,7 +51,7 @@ pub fn ashlar(seed: u64) -> Recipe {
         shift: 0.5,
         tile_m: TILE_M,
     };
-    let (warm, cool, mortar) = (srgb(0xd9c7a4), srgb(0xc4b79c), srgb(0xb3a488));
+    let (warm, cool, mortar) = (srgb(0xc0a880), srgb(0xa89a84), srgb(0x9a8b72));
     Recipe {
         name: "ashlar",
         size_px: 1024,
@@ -67,7 +67,7 @@ pub fn ashlar(seed: u64) -> Recipe {
             let stain = noise.tiling_fbm(uv, IVec2::new(5, 3), 4);
             let pit = noise.cells(uv, IVec2::splat(70));
             let pit = smoothstep(0.16, 0.05, pit.nearest) * smoothstep(0.6, 0.9, pit.id);
-            let shade = lerp(0.86, 1.06, stone.ids[0]) * (1.0 + 0.10 * stain + 0.07 * grain);
+            let shade = lerp(0.78, 1.10, stone.ids[0]) * (1.0 + 0.14 * stain + 0.07 * grain);
             let stone_color = warm.lerp(cool, stone.ids[1]) * shade * (1.0 - 0.35 * pit);
             Texel {
                 albedo: (mortar * 0.8)
@@ -119,59 +119,8 @@ pub fn brick(seed: u64) -> Recipe {
     }
 }
 
-/// A floor of square stone slabs, 0.6 m, two colours like a chessboard, worn.
-#[must_use]
-pub fn floor_tiles(seed: u64) -> Recipe {
-    const TILE_M: f32 = 2.4;
-    let noise = Noise::new(seed, "texture floor", 0);
-    let bond = Bond {
-        across: 4,
-        courses: 4,
-        shift: 0.0,
-        tile_m: TILE_M,
-    };
-    let (light, dark, joint) = (srgb(0xcfc3ac), srgb(0x9a7f68), srgb(0x6e6355));
-    Recipe {
-        name: "floor tiles",
-        size_px: 1024,
-        tile_m: TILE_M,
-        texel: Box::new(move |uv| {
-            let stone = bond.find(noise, uv);
-            let square = (uv * 4.0).floor().as_ivec2();
-            let base = if (square.x + square.y) % 2 == 0 {
-                light
-            } else {
-                dark
-            };
-            let chip = 0.004 * noise.tiling(uv, IVec2::splat(60)).max(0.0);
-            let face = smoothstep(0.002 + chip, 0.007 + chip, stone.edge_m);
-            // Each slab is cut from another place of the same bed.
-            let place = uv + Vec2::from(stone.ids);
-            let bed = noise.tiling_fbm(place, IVec2::new(6, 3), 4);
-            let vein = 1.0
-                - (noise.tiling_fbm(place, IVec2::splat(5), 4) * 7.0)
-                    .abs()
-                    .min(1.0);
-            let worn = noise.tiling_fbm(uv, IVec2::splat(3), 3);
-            let grain = noise.tiling_fbm(uv, IVec2::splat(80), 2);
-            let shade =
-                lerp(0.88, 1.05, stone.ids[0]) * (1.0 + 0.14 * bed + 0.05 * grain + 0.06 * worn);
-            Texel {
-                albedo: joint
-                    .lerp(base * shade * (1.0 - 0.12 * vein), face)
-                    .clamp(Vec3::ZERO, Vec3::splat(0.9)),
-                height_m: 0.004 * face
-                    + 0.0006 * bed
-                    + 0.0002 * grain
-                    + 0.0015 * stone.ids[1] * face,
-                roughness: lerp(0.9, 0.48 + 0.12 * worn + 0.08 * bed, face).clamp(0.2, 1.0),
-            }
-        }),
-    }
-}
-
 /// Every recipe here.
 #[must_use]
 pub fn all(seed: u64) -> Vec<Recipe> {
-    vec![ashlar(seed), brick(seed), floor_tiles(seed)]
+    vec![ashlar(seed), brick(seed)]
 }

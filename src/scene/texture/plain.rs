@@ -42,7 +42,7 @@ pub fn plaster(seed: u64) -> Recipe {
 #[must_use]
 pub fn carved_stone(seed: u64) -> Recipe {
     let noise = Noise::new(seed, "texture carved stone", 0);
-    let (light, warm) = (srgb(0xe0d5bf), srgb(0xcdbb99));
+    let (light, warm) = (srgb(0xb5ada0), srgb(0xa59880));
     Recipe {
         name: "carved stone",
         size_px: 512,
@@ -60,6 +60,34 @@ pub fn carved_stone(seed: u64) -> Recipe {
                 ),
                 height_m: 0.0012 * grain + 0.001 * bed - 0.003 * pit,
                 roughness: (0.72 + 0.1 * grain + 0.1 * bed).clamp(0.3, 1.0),
+            }
+        }),
+    }
+}
+
+/// Polished limestone of slabs, worn by feet: clouds, thin veins, fossils. Pale, to be
+/// tinted slab by slab.
+#[must_use]
+pub fn paving(seed: u64) -> Recipe {
+    let noise = Noise::new(seed, "texture paving", 0);
+    Recipe {
+        name: "paving",
+        size_px: 1024,
+        tile_m: 2.4,
+        texel: Box::new(move |uv| {
+            let bend = 0.03 * noise.tiling_fbm(uv, IVec2::splat(8), 3);
+            let cloud = noise.tiling_fbm(uv + Vec2::splat(bend), IVec2::new(7, 5), 5);
+            let ridge = noise.tiling_fbm(uv + Vec2::new(bend, -bend), IVec2::splat(6), 4);
+            let vein = smoothstep(0.05, 0.0, ridge.abs()) * smoothstep(-0.2, 0.4, cloud);
+            let fossil = noise.cells(uv, IVec2::splat(44));
+            let fossil = smoothstep(0.2, 0.12, fossil.nearest) * smoothstep(0.8, 0.95, fossil.id);
+            let grain = noise.tiling_fbm(uv, IVec2::splat(96), 2);
+            let worn = noise.tiling_fbm(uv, IVec2::splat(9), 4);
+            let shade = 0.80 * (1.0 + 0.20 * cloud + 0.06 * grain) * (1.0 - 0.10 * fossil);
+            Texel {
+                albedo: limit(Vec3::new(1.0, 0.985, 0.96) * shade * (1.0 - 0.22 * vein)),
+                height_m: 0.0006 * worn + 0.00025 * grain - 0.0008 * fossil,
+                roughness: (0.46 + 0.16 * worn + 0.05 * grain + 0.1 * vein).clamp(0.2, 1.0),
             }
         }),
     }
@@ -112,7 +140,7 @@ pub fn terracotta(seed: u64) -> Recipe {
             let grain = noise.tiling_fbm(uv, IVec2::splat(90), 2);
             Texel {
                 albedo: limit(
-                    clay.lerp(bloom, 0.6 * lime) * (1.0 + 0.08 * grain + 0.05 * throwing),
+                    clay.lerp(bloom, 0.4 * lime) * (1.0 + 0.08 * grain + 0.05 * throwing),
                 ),
                 height_m: 0.0008 * throwing + 0.0006 * grain,
                 roughness: (0.8 + 0.1 * lime).clamp(0.3, 1.0),
@@ -155,6 +183,7 @@ pub fn all(seed: u64) -> Vec<Recipe> {
     vec![
         plaster(seed),
         carved_stone(seed),
+        paving(seed),
         wood(seed),
         terracotta(seed),
         concrete(seed),

@@ -6,6 +6,7 @@ use glam::{Vec2, Vec3};
 
 use super::materials::Stuff;
 use super::orders::{Column, baluster};
+use super::weather::STAIN_STEP_M;
 use super::{COURT_DROP_M, HALF_LENGTH_M, HALF_WIDTH_M, Side, mouldings};
 use crate::scene::modelling::blocks::{block, hexahedron};
 use crate::scene::modelling::math::{lerp, on_circle};
@@ -165,19 +166,10 @@ fn bay(stuff: &mut Stuff, side: &Side, storey: &Storey, x: f32) {
         let at = |p: Vec2, z: f32| frame.point(centre + p.extend(z));
         let inner = [pair[0], pair[1]].map(|a| on_circle(a) * radius);
         let outer = [pair[0], pair[1]].map(border);
-        let z = HALF_WALL_M;
-        wall.quad([
-            at(inner[1], z),
-            at(inner[0], z),
-            at(outer[0], z),
-            at(outer[1], z),
-        ]);
-        wall.quad([
-            at(inner[0], -z),
-            at(inner[1], -z),
-            at(outer[1], -z),
-            at(outer[0], -z),
-        ]);
+        for (z, [a, b]) in [(HALF_WALL_M, [1, 0]), (-HALF_WALL_M, [0, 1])] {
+            let corners = [inner[a], inner[b], outer[b], outer[a]];
+            wall.panel(corners.map(|p| at(p, z)), STAIN_STEP_M);
+        }
     }
     wall.sheet(STEPS, 1, |s, t| {
         let p = on_circle(PI * (1.0 - s)) * radius;
@@ -234,8 +226,15 @@ fn voussoirs(stone: &mut MeshBuilder, frame: &Frame, radius: f32) {
             at(b, outer, front),
             at(a, outer, front),
         ];
+        let tone = if key || i % 2 == 1 {
+            Vec3::new(1.12, 1.10, 1.06)
+        } else {
+            Vec3::new(0.78, 0.66, 0.58)
+        };
+        stone.tint(tone);
         hexahedron(stone, &corners, 0.014);
     }
+    stone.tint(Vec3::ONE);
 }
 
 /// A moulded band round an arch, and a plain keystone over it.

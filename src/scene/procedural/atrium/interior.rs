@@ -6,6 +6,7 @@ use glam::{Vec2, Vec3};
 
 use super::arcade::{HALF_WALL_M, Storey};
 use super::materials::Stuff;
+use super::weather::STAIN_STEP_M;
 use super::{COURT_DROP_M, HALF_LENGTH_M, HALF_WIDTH_M, Side, WALK_M};
 use crate::scene::modelling::blocks::block;
 use crate::scene::modelling::math::{lerp, rotation};
@@ -137,12 +138,11 @@ fn back_wall(stuff: &mut Stuff, side: &Side, storey: &Storey, bay: u32) {
     let z = -WALK_M;
     let dado = storey.floor_m + 1.1;
     let wall = |builder: &mut MeshBuilder, y0: f32, y1: f32, z: f32| {
-        builder.quad([
-            side.frame.point(Vec3::new(x0, y0, z)),
-            side.frame.point(Vec3::new(x1, y0, z)),
-            side.frame.point(Vec3::new(x1, y1, z)),
-            side.frame.point(Vec3::new(x0, y1, z)),
-        ]);
+        let corners = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
+        builder.panel(
+            corners.map(|[x, y]| side.frame.point(Vec3::new(x, y, z))),
+            STAIN_STEP_M,
+        );
     };
     wall(&mut stuff.ashlar, storey.floor_m, dado, z + 0.05);
     wall(&mut stuff.plaster, dado, storey.top_m + 0.3, z);
@@ -309,12 +309,10 @@ pub(super) fn corners(stuff: &mut Stuff, storey: &Storey) {
         let (z0, z1) = (sz * HALF_WIDTH_M, sz * (HALF_WIDTH_M + WALK_M));
         let (y0, y1) = (storey.floor_m, storey.top_m + 0.3);
         let mut wall = |a: Vec2, b: Vec2| {
-            stuff.plaster.quad([
-                Vec3::new(a.x, y0, a.y),
-                Vec3::new(b.x, y0, b.y),
-                Vec3::new(b.x, y1, b.y),
-                Vec3::new(a.x, y1, a.y),
-            ]);
+            let corners = [(a, y0), (b, y0), (b, y1), (a, y1)];
+            stuff
+                .plaster
+                .panel(corners.map(|(c, y)| Vec3::new(c.x, y, c.y)), STAIN_STEP_M);
         };
         // Ordered so that each faces the corner's middle.
         let (along_x, along_z) = (
@@ -345,8 +343,17 @@ pub(super) fn shell(stuff: &mut Stuff) {
             builder.quad([d, c, b, a]);
         }
     };
-    level(&mut stuff.floor, -COURT_DROP_M, [-l, l], [-w, w], true);
-    for (y, inset) in [(0.0, 0.45), (6.7, -0.1), (13.37, HALF_WALL_M)] {
+    // Under the slabs of court and walks is only their bed, seen in the joints.
+    let bed = 0.03;
+    stuff.floor.tint(Vec3::splat(0.25));
+    level(
+        &mut stuff.floor,
+        -COURT_DROP_M - bed,
+        [-l, l],
+        [-w, w],
+        true,
+    );
+    for (y, inset) in [(-bed, 0.45), (6.7, -0.1), (13.37, HALF_WALL_M)] {
         let (ix, iz) = (l - inset, w - inset);
         let target = if y > 10.0 {
             &mut stuff.terracotta
@@ -358,6 +365,7 @@ pub(super) fn shell(stuff: &mut Stuff) {
         level(target, y, [ix, outer_x], [-iz, iz], true);
         level(target, y, [-outer_x, -ix], [-iz, iz], true);
     }
+    stuff.floor.tint(Vec3::ONE);
     parapet(stuff);
     // The outside, so that no light comes through the walls.
     for (a, b) in [

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::weather::Weather;
 use crate::scene::geometry::{Geometry, Material};
 use crate::scene::modelling::MeshBuilder;
 use crate::scene::texture::{Finish, add_materials, cloth, masonry, plain, srgb};
@@ -27,9 +28,9 @@ pub(super) struct Stuff {
 }
 
 const DYES: [(&str, u32); 3] = [
-    ("red hanging", 0xa8302a),
-    ("green hanging", 0x4f7a45),
-    ("blue hanging", 0x35588c),
+    ("red hanging", 0x9a3a30),
+    ("green hanging", 0x5f7048),
+    ("blue hanging", 0x3a547e),
 ];
 
 impl Stuff {
@@ -41,7 +42,7 @@ impl Stuff {
             &[
                 masonry::ashlar(seed),
                 masonry::brick(seed),
-                masonry::floor_tiles(seed),
+                plain::paving(seed),
                 plain::plaster(seed),
                 plain::carved_stone(seed),
                 plain::wood(seed),
@@ -101,6 +102,17 @@ impl Stuff {
             cloth: std::array::from_fn(|_| MeshBuilder::new()),
             metal: MeshBuilder::new(),
             leaves: MeshBuilder::new(),
+        }
+    }
+
+    /// Lays the stains on everything that has stood there for long.
+    pub fn weather(&mut self, weather: Weather) {
+        for masonry in [&mut self.ashlar, &mut self.brick, &mut self.carved] {
+            masonry.stain(|p, n| weather.stone(p, n));
+        }
+        self.plaster.stain(|p, n| weather.plaster(p, n));
+        for floor in [&mut self.floor, &mut self.terracotta] {
+            floor.stain(|p, _| weather.floor(p));
         }
     }
 

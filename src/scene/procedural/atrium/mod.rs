@@ -3,12 +3,14 @@
 //! arches. Its length lies along x; the court's middle is the origin, the walks' floor y = 0.
 
 mod arcade;
+mod floor;
 mod hangings;
 mod interior;
 mod materials;
 mod mouldings;
 mod orders;
 mod props;
+mod weather;
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
@@ -19,6 +21,7 @@ use crate::scene::geometry::Geometry;
 use crate::scene::modelling::Frame;
 use arcade::Storey;
 use materials::Stuff;
+use weather::Weather;
 
 /// The registry's entry.
 pub const GENERATOR: Generator = Generator {
@@ -83,6 +86,8 @@ fn generate(seed: u64) -> Geometry {
         interior::corners(&mut stuff, storey);
     }
     interior::shell(&mut stuff);
+    floor::build(&mut stuff, seed);
     props::well(&mut stuff);
+    stuff.weather(Weather::new(seed));
     stuff.finish()
 }

@@ -22,7 +22,8 @@ pub(super) fn build(stuff: &mut Stuff, side: &Side, seed: u64) {
         let x = i as f32 * side.bay_m;
         let foot = side.frame.point(Vec3::new(x, -COURT_DROP_M, 1.25));
         let mut random = seed::generator(seed, "atrium plant", number * 100 + u64::from(i));
-        if i % 2 == 1 {
+        // None at the viewer's elbow.
+        if i % 2 == 1 && !(number == 1 && i == 5) {
             urn(stuff, foot, &mut random);
         }
     }
