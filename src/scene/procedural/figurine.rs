@@ -1,6 +1,6 @@
-//! A carved dragon, coiled round a rock: it stands where the Stanford dragon stood in
-//! the thesis. One closed surface with deep hollows between the coils, under the jaw,
-//! among claws, spines and scales. About 0.3 m tall, its foot at y = 0.
+//! A carved dragon, its body in a loop over rocks and waves: it stands where the Stanford
+//! dragon stood in the thesis. One closed surface with deep hollows in the loop, under the
+//! jaw, among claws, spines and scales. About 0.3 m tall and 0.45 m long, its foot at y = 0.
 
 mod body;
 mod head;
@@ -22,17 +22,17 @@ use crate::scene::texture::srgb;
 /// The registry's entry.
 pub const GENERATOR: Generator = Generator {
     name: "figurine",
-    summary: "carved dragon coiled round a rock: one closed surface with deep hollows",
+    summary: "carved dragon, looped over rocks and waves: one closed surface with deep hollows",
     generate,
 };
 
 /// Size of the marching cubes, metres.
-const CELL_M: f32 = 0.0016;
+const CELL_M: f32 = 0.0015;
 
 fn generate(seed: u64) -> Geometry {
     let mut sculpture = Sculpture::new();
     rock::carve(&mut sculpture, seed);
-    let spine = body::Spine::coiled();
+    let spine = body::Spine::looped();
     body::carve(&mut sculpture, &spine);
     limbs::carve(&mut sculpture, &spine);
     head::carve(&mut sculpture, &spine);

@@ -92,7 +92,7 @@ pub fn brick(seed: u64) -> Recipe {
         shift: 0.5,
         tile_m: TILE_M,
     };
-    let (red, pale, mortar) = (srgb(0x82503f), srgb(0xa07c62), srgb(0x9c9284));
+    let (red, pale, mortar) = (srgb(0x7d5244), srgb(0x917260), srgb(0x8d857a));
     Recipe {
         name: "brick",
         size_px: 1024,

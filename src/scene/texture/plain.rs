@@ -113,7 +113,7 @@ pub fn wood(seed: u64) -> Recipe {
             let shade = 0.85 + 0.3 * noise.at(glam::IVec3::new(board as i32, 0, 9));
             Texel {
                 albedo: limit(
-                    dark.lerp(light, 0.25 + 0.5 * grain + 0.25 * fibre)
+                    dark.lerp(light, 0.35 + 0.28 * grain + 0.3 * fibre)
                         .max(Vec3::ZERO)
                         * shade
                         * lerp(0.35, 1.0, gap),

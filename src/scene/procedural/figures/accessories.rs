@@ -7,7 +7,7 @@ use glam::Vec3;
 
 use super::person::{Build, Layer, Stuff};
 use super::pose::Pose;
-use crate::scene::modelling::math::on_circle;
+use crate::scene::modelling::math::{bump, on_circle};
 use crate::scene::modelling::sculpture::{Part, Sculpture};
 use crate::scene::modelling::{Frame, Noise};
 
@@ -16,12 +16,12 @@ pub(super) fn over(
     pose: &Pose,
     build: &Build,
     noise: Noise,
-    top: &Sculpture,
+    body: &Sculpture,
     trousers: &Sculpture,
 ) -> Vec<Layer> {
     let mut leather = Sculpture::new();
     let mut metal = Sculpture::new();
-    let cloth = |p: Vec3| top.distance_m(p).min(trousers.distance_m(p));
+    let cloth = |p: Vec3| body.distance_m(p).min(trousers.distance_m(p));
     let hips = (pose.hips[0] + pose.hips[1]) * 0.5;
     let (belt_at, tilt) = if build.woman {
         (hips.lerp(pose.waist, 0.45), 0.06)
@@ -39,10 +39,12 @@ pub(super) fn over(
         pouch(&mut leather, &belt, turn, size);
     }
     if !build.woman {
-        let across = Vec3::new(0.78, 1.0, 0.0);
-        let strap = ring(pose.chest + Vec3::new(0.0, -0.045, 0.0), across, &cloth);
+        // From beside the neck to the other hip.
+        let across = Vec3::new(1.55, 1.0, 0.0);
+        let strap = ring(pose.chest + Vec3::new(0.0, 0.035, 0.0), across, &cloth);
         band(&mut leather, &strap, 0.024, 0.0030);
-        satchel(&mut leather, &mut metal, pose, &cloth);
+        let bag = satchel(&mut leather, &mut metal, pose, &cloth);
+        hang(&mut leather, &strap, &bag);
     }
     vec![
         Layer::dyed("leather", Stuff::Leather, leather, 0.0048, build.belts),
@@ -70,7 +72,7 @@ fn pouches(woman: bool) -> Vec<(f32, [f32; 3])> {
 /// Points and normals round the body where a plane through `centre` with normal `axis`
 /// meets the cloth; starts in front and turns to the figure's left.
 fn ring(centre: Vec3, axis: Vec3, cloth: &dyn Fn(Vec3) -> f32) -> Vec<(Vec3, Vec3)> {
-    const STEPS: usize = 56;
+    const STEPS: usize = 72;
     let frame = Frame::along(centre, axis, Vec3::Z);
     let raw: Vec<Vec3> = (0..STEPS)
         .map(|i| {
@@ -165,14 +167,14 @@ fn pouch(leather: &mut Sculpture, ring: &[(Vec3, Vec3)], turn: f32, half: [f32; 
     ));
 }
 
-/// A bag on his left hip, under the strap.
+/// A bag on his left hip, under the strap. Gives its frame, z away from the body.
 fn satchel(
     leather: &mut Sculpture,
     metal: &mut Sculpture,
     pose: &Pose,
     cloth: &dyn Fn(Vec3) -> f32,
-) {
-    let out = Vec3::new(0.97, 0.0, 0.16).normalize();
+) -> Frame {
+    let out = Vec3::new(0.86, 0.0, 0.50).normalize();
     let mut at = pose.hips[1] + Vec3::new(0.0, -0.02, 0.03) + out * 0.35;
     for _ in 0..40 {
         at -= out * (0.8 * cloth(at)).max(0.0);
@@ -196,6 +198,24 @@ fn satchel(
         };
         metal.add(Part::block(clasp, Vec3::new(0.016, 0.012, 0.004), 0.003));
     }
+    frame
+}
+
+/// The bag's own straps, from both ends of its top up to the strap round the chest.
+fn hang(leather: &mut Sculpture, strap: &[(Vec3, Vec3)], bag: &Frame) {
+    for x in [-0.10, 0.10] {
+        let end = bag.point(Vec3::new(x, 0.085, 0.0));
+        let Some(&(start, normal)) = strap
+            .iter()
+            .min_by(|a, b| a.0.distance(end).total_cmp(&b.0.distance(end)))
+        else {
+            return;
+        };
+        let along = end - start;
+        let frame = Frame::along((start + end) * 0.5, along, normal);
+        let half = Vec3::new(0.020, 0.5 * along.length() + 0.008, 0.0035);
+        leather.add(Part::block(frame, half, 0.0022).blended(0.003));
+    }
 }
 
 /// A short leather waistcoat, open in front.
@@ -203,16 +223,19 @@ fn waistcoat(leather: &mut Sculpture, pose: &Pose, noise: Noise) {
     let up = pose.neck - pose.waist;
     let chest = Frame::along(pose.chest + Vec3::Y * 0.01, up, Vec3::Z);
     leather.add(
-        Part::ellipsoid(chest, Vec3::new(0.163, 0.175, 0.121)).with_relief(0.004, move |p| {
-            0.003 * noise.gradient(Vec3::new(p.x * 12.0, p.y * 22.0, p.z * 12.0))
+        Part::ellipsoid(chest, Vec3::new(0.160, 0.180, 0.124)).with_relief(0.004, move |p| {
+            let crease = noise.gradient(Vec3::new(p.x * 12.0, p.y * 26.0, p.z * 12.0));
+            // Panels are sewn together under the arms and down from the shoulders.
+            let seam = bump(0.088, 0.004, p.x.abs());
+            0.0022 * crease - 0.0030 * seam
         }),
     );
     for side in [-1.0, 1.0] {
-        let bust = Frame::at(pose.chest + Vec3::new(side * 0.060, 0.0, 0.062));
-        leather.add(Part::ellipsoid(bust, Vec3::new(0.068, 0.072, 0.060)).blended(0.09));
+        let bust = Frame::at(pose.chest + Vec3::new(side * 0.060, -0.004, 0.060));
+        leather.add(Part::ellipsoid(bust, Vec3::new(0.064, 0.066, 0.055)).blended(0.06));
     }
     let waist = Frame::along(pose.waist + Vec3::Y * 0.03, up, Vec3::Z);
-    leather.add(Part::ellipsoid(waist, Vec3::new(0.148, 0.125, 0.115)).blended(0.06));
+    leather.add(Part::ellipsoid(waist, Vec3::new(0.147, 0.125, 0.116)).blended(0.05));
     // Cut: below, at the arms and neck, and open down the front.
     let level = Frame::along(pose.waist - up.normalize() * 0.155, up, Vec3::Z);
     leather.add(

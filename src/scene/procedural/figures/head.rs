@@ -95,9 +95,10 @@ fn skull(c: &mut Sculptor, woman: bool) {
             0.025,
         ));
         c.add(c.egg([x * 0.045, -0.026, 0.060], [0.019, 0.014, 0.018], 0.026));
-        c.add(c.egg([x * 0.030, -0.058, 0.066], [0.022, 0.022, 0.018], 0.026));
+        let cheek = if woman { 0.022 } else { 0.018 };
+        c.add(c.egg([x * 0.030, -0.056, 0.065], [cheek, 0.022, 0.016], 0.026));
     }
-    c.add(c.egg([0.0, -0.104, 0.070], [0.0155 * jaw, 0.0125, 0.0135], 0.022));
+    c.add(c.egg([0.0, -0.104, 0.070], [0.0190 * jaw, 0.0135, 0.0150], 0.020));
     if !woman {
         c.add(c.bone(
             [-0.036, 0.0165, 0.0765],
@@ -119,7 +120,7 @@ fn skull(c: &mut Sculptor, woman: bool) {
 fn eye_socket(c: &mut Sculptor, side: f32) {
     let [x, y, z] = (EYE_M * Vec3::new(side, 1.0, 1.0)).to_array();
     c.add(
-        c.egg([x, y - 0.001, z + 0.0165], [0.0185, 0.0115, 0.0120], 0.012)
+        c.egg([x, y - 0.001, z + 0.0165], [0.0185, 0.0120, 0.0135], 0.012)
             .carving(),
     );
     // Lids: a shell round the ball, opened by an almond.
@@ -140,8 +141,8 @@ fn eye_socket(c: &mut Sculptor, side: f32) {
     ));
     c.add(
         c.egg(
-            [x, y - 0.0005, z + 0.0125],
-            [0.0128, 0.0052, 0.0110],
+            [x, y - 0.0012, z + 0.0125],
+            [0.0126, 0.0043, 0.0110],
             0.0015,
         )
         .carving(),
@@ -161,15 +162,15 @@ fn nose(c: &mut Sculptor, woman: bool) {
     c.add(c.bone(
         [0.0, 0.010, 0.0835],
         0.0068,
-        [0.0, -0.020, 0.0950],
+        [0.0, -0.020, 0.0975],
         0.0072 * k,
         0.012,
     ));
     c.add(c.bone(
-        [0.0, -0.020, 0.0950],
+        [0.0, -0.020, 0.0975],
         0.0072 * k,
-        [0.0, -0.0345, 0.1030],
-        0.0088 * k,
+        [0.0, -0.0345, 0.1065],
+        0.0086 * k,
         0.008,
     ));
     for x in [-1.0, 1.0] {
@@ -180,7 +181,7 @@ fn nose(c: &mut Sculptor, woman: bool) {
         ));
     }
     c.add(c.bone(
-        [0.0, -0.0400, 0.0995],
+        [0.0, -0.0400, 0.1020],
         0.0048,
         [0.0, -0.0470, 0.0880],
         0.0048,
@@ -303,19 +304,24 @@ fn paint(
             + bump(0.0, 0.016, x) * bump(-0.036, 0.018, y) * ahead
             + 0.8 * smoothstep(0.070, 0.078, x) * bump(-0.012, 0.04, y);
         let mut color = skin * Vec3::new(1.0, 1.0 - 0.16 * flush, 1.0 - 0.14 * flush);
-        color *= 1.0 + 0.06 * noise.fbm(p * 120.0, 2);
+        color *= 1.0 + 0.06 * noise.fbm(p * 120.0, 2) + 0.10 * noise.fbm(p * 28.0, 3);
         let lip_line = Vec2::new(x / 0.0262, (y + 0.0712) / 0.0092).length();
         let on_lips = smoothstep(1.05, 0.85, lip_line) * smoothstep(0.074, 0.080, q.z);
         color = color.lerp(lips, 0.75 * on_lips);
         let arch = 0.0205 + 0.10 * x - 2.4 * (x - 0.028) * (x - 0.028) - 0.003;
-        let brow = smoothstep(0.0048, 0.0028, (y - arch).abs())
+        let brow = smoothstep(0.0054, 0.0030, (y - arch).abs())
             * smoothstep(0.010, 0.015, x)
             * smoothstep(0.055, 0.045, x)
             * ahead;
         color = color.lerp(hair, brow * if build.woman { 0.6 } else { 0.8 });
         // Shadow of lashes round the eye's opening.
         let eye = Vec2::new((x - EYE_M.x) / 0.0150, (y - 0.0015) / 0.0072).length();
-        color *= 1.0 - 0.45 * smoothstep(1.25, 0.9, eye) * ahead;
+        color *= 1.0 - 0.6 * smoothstep(1.3, 0.9, eye) * ahead;
+        // Thin skin round the sockets, and beside the wings of the nose.
+        let socket = Vec2::new((x - EYE_M.x + 0.004) / 0.022, (y - 0.004) / 0.015).length();
+        let wing = Vec2::new((x - 0.0185) / 0.006, (y + 0.038) / 0.009).length();
+        let thin = 0.30 * smoothstep(1.2, 0.5, socket) + 0.22 * smoothstep(1.2, 0.3, wing);
+        color *= Vec3::ONE - Vec3::new(0.8, 1.0, 0.95) * (thin * ahead);
         if !build.woman {
             let beard = smoothstep(-0.045, -0.062, y) * smoothstep(0.0, 0.03, q.z)
                 + 0.8
@@ -356,7 +362,7 @@ pub(super) fn eyeball(mesh: &mut MeshBuilder, frame: &Frame, radius_m: f32, iris
         } else if middle < 0.5 {
             iris * 0.4
         } else {
-            Vec3::new(0.62, 0.58, 0.54)
+            Vec3::new(0.44, 0.40, 0.37)
         });
         let (inner, outer) = (pair[0], pair[1]);
         mesh.sheet_with_normals(20, 1, |s, t| {

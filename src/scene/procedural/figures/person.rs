@@ -90,7 +90,7 @@ impl Person {
             skin: 0xc08f70,
             lips: 0xa5675a,
             hair: 0x3a2a1e,
-            iris: 0x4f6a72,
+            iris: 0x3f4c4a,
             top: 0x77785a,
             trousers: 0x5d5a55,
             boots: 0x4a3526,
@@ -121,8 +121,9 @@ impl Person {
         let noise = Noise::new(seed, "figures folds", index);
         let trousers = garments::trousers(pose, build, noise);
         let top = tops::top(pose, build, noise);
+        let body = tops::body(pose, build, noise);
         let mut layers = Vec::new();
-        layers.extend(accessories::over(pose, build, noise, &top, &trousers));
+        layers.extend(accessories::over(pose, build, noise, &body, &trousers));
         layers.push(Layer::dyed(
             "trousers",
             Stuff::Cloth,
@@ -130,7 +131,7 @@ impl Person {
             0.0058,
             build.trousers,
         ));
-        layers.push(Layer::dyed("jacket", Stuff::Cloth, top, 0.0056, build.top));
+        layers.push(Layer::dyed("jacket", Stuff::Cloth, top, 0.0050, build.top));
         layers.push(boots::layer(pose, build, noise));
         layers.extend(hands::layers(pose, build));
         layers.push(head::layer(pose, build, noise));

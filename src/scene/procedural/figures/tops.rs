@@ -9,14 +9,20 @@ use crate::scene::modelling::math::{bump, lerp, sin, smoothstep};
 use crate::scene::modelling::sculpture::{Part, Sculpture};
 use crate::scene::modelling::{Frame, Noise};
 
-/// Jacket or shirt.
-pub(super) fn top(pose: &Pose, build: &Build, noise: Noise) -> Sculpture {
+/// Jacket or shirt without sleeves and collar: what straps and belts lie on.
+pub(super) fn body(pose: &Pose, build: &Build, noise: Noise) -> Sculpture {
     let mut s = Sculpture::new();
     if build.woman {
         shirt(&mut s, pose, build, noise);
     } else {
         jacket(&mut s, pose, build, noise);
     }
+    s
+}
+
+/// Jacket or shirt.
+pub(super) fn top(pose: &Pose, build: &Build, noise: Noise) -> Sculpture {
+    let mut s = body(pose, build, noise);
     for side in 0..2 {
         arm(&mut s, pose, build, noise, side);
     }
@@ -50,12 +56,12 @@ fn jacket(s: &mut Sculpture, pose: &Pose, build: &Build, noise: Noise) {
     let up = pose.neck - pose.waist;
     let chest = Frame::along(pose.chest, up, Vec3::Z);
     s.add(
-        Part::ellipsoid(chest, Vec3::new(0.186, 0.205, 0.132))
+        Part::ellipsoid(chest, Vec3::new(0.178, 0.205, 0.130))
             .with_relief(0.011, front(noise, -0.22)),
     );
     let belly = Frame::along(pose.waist + Vec3::Y * 0.02, up, Vec3::Z);
     s.add(
-        Part::ellipsoid(belly, Vec3::new(0.163, 0.19, 0.122))
+        Part::ellipsoid(belly, Vec3::new(0.156, 0.19, 0.120))
             .blended(0.07)
             .with_relief(0.011, front(noise, -0.02)),
     );
@@ -117,8 +123,8 @@ fn shirt(s: &mut Sculpture, pose: &Pose, build: &Build, noise: Noise) {
             .with_relief(0.011, front(noise, -0.2)),
     );
     for side in [-1.0, 1.0] {
-        let bust = Frame::at(pose.chest + Vec3::new(side * 0.062, 0.0, 0.068));
-        s.add(Part::ellipsoid(bust, Vec3::new(0.062, 0.064, 0.056)).blended(0.055));
+        let bust = Frame::at(pose.chest + Vec3::new(side * 0.060, 0.0, 0.060));
+        s.add(Part::ellipsoid(bust, Vec3::new(0.055, 0.057, 0.046)).blended(0.055));
     }
     let belly = Frame::along(pose.waist + Vec3::Y * 0.01, up, Vec3::Z);
     s.add(
@@ -134,14 +140,14 @@ fn shoulders(s: &mut Sculpture, pose: &Pose, build: &Build, noise: Noise) {
     for side in 0..2 {
         let shoulder = pose.shoulders[side];
         // Trapezius line from the neck, then the cap of the shoulder.
-        let neck = pose.neck + Vec3::new(shoulder.x.signum() * 0.03, -0.035, 0.0);
-        s.add(Part::limb((neck, 0.055 * g), (shoulder, 0.054 * g), Vec3::Z).blended(0.06));
+        let neck = pose.neck + Vec3::new(shoulder.x.signum() * 0.03, -0.022, -0.004);
+        s.add(Part::limb((neck, 0.050 * g), (shoulder, 0.050 * g), Vec3::Z).blended(0.05));
         let back = (pose.chest + shoulder) * 0.5 + Vec3::new(0.0, 0.01, -0.045);
         s.add(Part::ball(back, 0.080 * g).blended(0.06));
-        let cap = Frame::at(shoulder + Vec3::new(0.0, -0.012, 0.0));
+        let cap = Frame::at(shoulder + Vec3::new(-0.006 * shoulder.x.signum(), -0.018, 0.0));
         s.add(
-            Part::ellipsoid(cap, Vec3::new(0.060, 0.068, 0.066) * g)
-                .blended(0.07)
+            Part::ellipsoid(cap, Vec3::new(0.056, 0.062, 0.060) * g)
+                .blended(0.045)
                 .with_relief(0.005, move |p| 0.003 * wrinkles(noise, p, 28.0, 0.9)),
         );
     }
@@ -176,14 +182,14 @@ fn arm(s: &mut Sculpture, pose: &Pose, build: &Build, noise: Noise, side: usize)
     let g = build.girth;
     let (shoulder, elbow, wrist) = (pose.shoulders[side], pose.elbows[side], pose.wrists[side]);
     let upper = sleeve(
-        (shoulder, 0.060 * g),
-        (elbow, 0.051 * g),
+        (shoulder - Vec3::Y * 0.008, 0.056 * g),
+        (elbow, 0.049 * g),
         noise,
         34.0,
         0.011,
         |t| 0.0025 + 0.003 * smoothstep(0.35, 0.0, t) + 0.007 * smoothstep(0.6, 1.0, t),
     );
-    s.add(upper.blended(0.035));
+    s.add(upper.blended(0.025));
     let rolled = build.woman;
     let end = if rolled {
         elbow.lerp(wrist, 0.42)
@@ -246,13 +252,13 @@ fn collar(s: &mut Sculpture, pose: &Pose, build: &Build) {
     s.add(Part::limb((base, 0.084 * g), (base + up * height, 0.078 * g), Vec3::Z).blended(0.02));
     // Turned-down wings at the front.
     for side in [-1.0, 1.0] {
-        let at = base + Vec3::new(side * 0.048 * g, 0.022, 0.072 * g);
+        let at = base + Vec3::new(side * 0.052 * g, 0.014, 0.080 * g);
         let frame = Frame::along(
             at,
             Vec3::new(side * 0.55, 1.0, -0.35),
             Vec3::new(side * 0.35, 0.35, 1.0),
         );
-        s.add(Part::block(frame, Vec3::new(0.026, 0.042, 0.008), 0.005).blended(0.005));
+        s.add(Part::block(frame, Vec3::new(0.030, 0.050, 0.0065), 0.004).blended(0.0015));
     }
     // The neck's opening, wider in front.
     s.add(

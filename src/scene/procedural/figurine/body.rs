@@ -1,11 +1,11 @@
-//! The dragon's body: a tapering tube along a coiled spine, with overlapping scales,
+//! The dragon's body: a tapering tube along a looped spine, with overlapping scales,
 //! ringed belly plates and a crest of spines.
 
 use std::f32::consts::{PI, TAU};
 
 use glam::Vec3;
 
-use crate::scene::modelling::math::{catmull_rom, cos, lerp, on_circle, pow, smoothstep};
+use crate::scene::modelling::math::{catmull_rom, cos, lerp, pow, smoothstep};
 use crate::scene::modelling::sculpture::{Part, Sculpture};
 
 /// One knot of the spine: where it is and which way its back points.
@@ -29,51 +29,51 @@ pub(super) struct Spine {
     pub knots: Vec<Knot>,
 }
 
-const KNOTS: usize = 260;
+const KNOTS: usize = 140;
 /// Length of a scale along the body, metres; round it there are always fifteen.
 const SCALE_M: f32 = 0.0095;
 
 impl Spine {
-    /// Winds out from under, twice round the rock, then rears up into an S that looks
-    /// over its own shoulder. Columns: angle (turns), distance from the axis, height
-    /// and body radius (metres).
-    pub fn coiled() -> Self {
-        let control: [[f32; 4]; 18] = [
-            [-0.62, 0.150, 0.040, 0.0022],
-            [-0.52, 0.142, 0.020, 0.0050],
-            [-0.38, 0.128, 0.014, 0.0085],
-            [-0.22, 0.118, 0.016, 0.0125],
-            [-0.04, 0.112, 0.021, 0.0165],
-            [0.14, 0.108, 0.026, 0.0200],
-            [0.32, 0.103, 0.032, 0.0230],
-            [0.50, 0.094, 0.044, 0.0255],
-            [0.68, 0.084, 0.064, 0.0270],
-            [0.86, 0.074, 0.090, 0.0278],
-            [1.04, 0.068, 0.118, 0.0275],
-            [1.22, 0.064, 0.146, 0.0265],
-            [1.40, 0.060, 0.178, 0.0248],
-            [1.57, 0.060, 0.212, 0.0228],
-            [1.70, 0.050, 0.246, 0.0212],
-            [1.84, 0.020, 0.274, 0.0205],
-            [2.62, 0.032, 0.284, 0.0205],
-            [2.74, 0.074, 0.276, 0.0205],
+    /// The tail curls up on the left; the hips stand low, the back rears into a loop that
+    /// leans away from the viewer, comes down to the chest and rises again into the neck,
+    /// which looks to the right. Columns: the middle of the body and its radius (metres),
+    /// and where the crest points.
+    pub fn looped() -> Self {
+        let control: [[f32; 7]; 21] = [
+            [-0.150, 0.186, 0.040, 0.0024, 0.3, 1.0, 0.0],
+            [-0.182, 0.206, 0.030, 0.0048, 0.0, 1.0, 0.0],
+            [-0.215, 0.192, 0.015, 0.0078, -0.7, 0.7, 0.0],
+            [-0.228, 0.150, 0.000, 0.0108, -1.0, 0.3, -0.1],
+            [-0.208, 0.105, -0.020, 0.0145, -0.6, 0.6, -0.5],
+            [-0.170, 0.066, -0.035, 0.0185, 0.0, 1.0, -0.5],
+            [-0.120, 0.049, -0.030, 0.0230, 0.0, 1.0, 0.0],
+            [-0.070, 0.056, 0.000, 0.0262, -0.4, 0.9, 0.1],
+            [-0.040, 0.090, 0.030, 0.0278, -0.8, 0.2, 0.6],
+            [-0.045, 0.137, 0.022, 0.0282, -0.5, 0.5, 0.7],
+            [-0.058, 0.170, -0.020, 0.0282, -0.3, 1.0, 0.0],
+            [-0.035, 0.155, -0.064, 0.0282, 0.2, 0.7, -0.7],
+            [0.012, 0.108, -0.072, 0.0282, 0.5, 0.6, -0.6],
+            [0.056, 0.068, -0.046, 0.0282, 0.1, 1.0, -0.4],
+            [0.090, 0.064, 0.000, 0.0278, -0.2, 1.0, -0.2],
+            [0.106, 0.092, 0.038, 0.0262, -0.7, 0.5, -0.4],
+            [0.096, 0.138, 0.052, 0.0246, -1.0, 0.1, 0.0],
+            [0.072, 0.182, 0.038, 0.0230, -1.0, 0.0, 0.2],
+            [0.066, 0.222, 0.010, 0.0220, -0.9, 0.4, 0.0],
+            [0.090, 0.250, -0.006, 0.0214, -0.4, 1.0, 0.0],
+            [0.126, 0.254, 0.006, 0.0208, 0.0, 1.0, 0.0],
         ];
         let sample = |t: f32| {
-            let [turns, distance, height, radius] = catmull_rom(&control, t);
-            let c = on_circle(turns * TAU) * distance;
-            (Vec3::new(c.x, height, -c.y), radius)
+            let [x, y, z, radius, back @ ..] = catmull_rom(&control, t);
+            (Vec3::new(x, y, z), radius, Vec3::from(back))
         };
         let mut knots: Vec<Knot> = Vec::with_capacity(KNOTS);
         let mut along_m = 0.0;
         for i in 0..KNOTS {
             let t = i as f32 / (KNOTS - 1) as f32;
-            let (at_m, radius_m) = sample(t);
+            let (at_m, radius_m, wish) = sample(t);
             let ahead =
                 (sample((t + 0.002).min(1.0)).0 - sample((t - 0.002).max(0.0)).0).normalize();
             along_m += knots.last().map_or(0.0, |last| last.at_m.distance(at_m));
-            // The crest points up and away from the rock; the neck turns it backwards.
-            let outwards = Vec3::new(at_m.x, 0.0, at_m.z).normalize_or_zero();
-            let wish = Vec3::Y + outwards * 0.55;
             let back = (wish - ahead * ahead.dot(wish)).normalize_or(Vec3::Y);
             knots.push(Knot {
                 at_m,
@@ -101,7 +101,7 @@ impl Spine {
 /// Height of the scales, in units of their own size, at `around` (turns, 0 at the
 /// crest) and `along` (in scales): rounded shields in staggered rows, each rising
 /// towards its free end.
-fn shield(around: f32, along: f32) -> f32 {
+pub(super) fn shield(around: f32, along: f32) -> f32 {
     let mut highest = 0.0_f32;
     for row in 0..2 {
         let shift = 0.5 * row as f32;
@@ -128,7 +128,7 @@ pub(super) fn carve(sculpture: &mut Sculpture, spine: &Spine) {
 
 fn segment(a: Knot, b: Knot) -> Part {
     let length = a.at_m.distance(b.at_m);
-    let limit = 0.16 * a.radius_m;
+    let limit = 0.20 * a.radius_m;
     let part = Part::limb((a.at_m, a.radius_m), (b.at_m, b.radius_m), a.back);
     let first = a.along_m / SCALE_M;
     let last = b.along_m / SCALE_M;
@@ -137,7 +137,7 @@ fn segment(a: Knot, b: Knot) -> Part {
         let turns = libm::atan2f(p.x, p.z) / TAU;
         let along = lerp(first, last, (p.y / length).clamp(0.0, 1.0));
         let belly = smoothstep(0.33, 0.36, turns.abs());
-        let scale = shield(turns * 15.0, along * 0.8);
+        let scale = shield(turns * 14.0, along * 0.8);
         let ring = along * 0.55;
         let ring = ring - ring.floor();
         let plate = smoothstep(0.0, 0.12, ring) * (1.0 - 0.6 * ring);
