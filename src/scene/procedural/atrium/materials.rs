@@ -13,6 +13,7 @@ pub(super) struct Stuff {
     finishes: Vec<Finish>,
     hanging: [Finish; 3],
     bronze: Finish,
+    iron_finish: Finish,
     leaf: Finish,
     pub ashlar: MeshBuilder,
     pub brick: MeshBuilder,
@@ -24,6 +25,7 @@ pub(super) struct Stuff {
     /// Red, green and blue cloth.
     pub cloth: [MeshBuilder; 3],
     pub metal: MeshBuilder,
+    pub iron: MeshBuilder,
     pub leaves: MeshBuilder,
 }
 
@@ -79,6 +81,13 @@ impl Stuff {
             metallic: 1.0,
             ..Material::default()
         });
+        // Painted black against rust, so no bare metal.
+        let iron_finish = untextured(Material {
+            name: "iron".to_owned(),
+            albedo: srgb(0x3a3634).to_array(),
+            roughness: 0.6,
+            ..Material::default()
+        });
         let leaf = untextured(Material {
             name: "leaves".to_owned(),
             albedo: [1.0; 3],
@@ -91,6 +100,7 @@ impl Stuff {
             finishes,
             hanging,
             bronze,
+            iron_finish,
             leaf,
             ashlar: MeshBuilder::new(),
             brick: MeshBuilder::new(),
@@ -101,6 +111,7 @@ impl Stuff {
             terracotta: MeshBuilder::new(),
             cloth: std::array::from_fn(|_| MeshBuilder::new()),
             metal: MeshBuilder::new(),
+            iron: MeshBuilder::new(),
             leaves: MeshBuilder::new(),
         }
     }
@@ -137,6 +148,7 @@ impl Stuff {
             ("green hangings", green, self.hanging[1]),
             ("blue hangings", blue, self.hanging[2]),
             ("bronze", self.metal, self.bronze),
+            ("ironwork", self.iron, self.iron_finish),
             ("plants", self.leaves, self.leaf),
         ];
         for (name, builder, finish) in meshes {

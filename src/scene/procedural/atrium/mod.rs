@@ -6,10 +6,12 @@ mod arcade;
 mod floor;
 mod hangings;
 mod interior;
+mod ironwork;
 mod materials;
 mod mouldings;
 mod orders;
 mod props;
+mod walls;
 mod weather;
 
 use std::f32::consts::{FRAC_PI_2, PI};
@@ -77,6 +79,7 @@ fn generate(seed: u64) -> Geometry {
         for storey in &storeys {
             arcade::build(&mut stuff, &side, storey);
             interior::build(&mut stuff, &side, storey);
+            ironwork::build(&mut stuff, &side, storey);
         }
         hangings::build(&mut stuff, &side, &storeys, seed);
         props::build(&mut stuff, &side, seed);

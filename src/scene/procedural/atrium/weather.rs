@@ -28,7 +28,7 @@ impl Weather {
     pub fn stone(self, p: Vec3, n: Vec3) -> Vec3 {
         let warmth = self.noise.fbm(p * 0.22 + Vec3::splat(3.7), 3);
         let mottle = self.noise.fbm(p * Vec3::new(1.3, 1.9, 1.3), 3);
-        let tone = Vec3::ONE + Vec3::new(0.14, 0.02, -0.14) * warmth + Vec3::splat(0.20 * mottle);
+        let tone = Vec3::ONE + Vec3::new(0.14, 0.02, -0.14) * warmth + Vec3::splat(0.27 * mottle);
         tone * self.damp(p, n) * self.runs(p, n) * self.dust(p, n)
     }
 
@@ -63,7 +63,7 @@ impl Weather {
         let ragged = self.noise.fbm(Vec3::new(p.x * 1.6, 0.4, p.z * 1.6), 3);
         let reach = 0.75 + 0.55 * ragged;
         let wet = smoothstep(reach, reach - 0.6, p.y - floor) * smoothstep(0.8, 0.4, n.y.abs());
-        Vec3::ONE.lerp(Vec3::new(0.66, 0.64, 0.56), 0.8 * wet)
+        Vec3::ONE.lerp(Vec3::new(0.66, 0.64, 0.56), 0.95 * wet)
     }
 
     /// Dark runs below the ledges, where rain drips off.

@@ -163,10 +163,10 @@ fn foot(sculpture: &mut Sculpture, leg: &Leg) {
         };
         let c = on_circle(spread);
         let way = (leg.toes * c.x + side * c.y).normalize();
-        let knuckle = palm + way * (0.95 * r * length) - leg.sole * (0.22 * r);
-        let joint = palm + way * (1.6 * r * length) + leg.sole * (0.02 * r);
-        let end = palm + way * (2.05 * r * length) + leg.sole * (0.36 * r);
-        let claw = palm + way * (2.5 * r * length) + leg.sole * (1.05 * r);
+        let knuckle = palm + way * (1.1 * r * length) - leg.sole * (0.22 * r);
+        let joint = palm + way * (1.85 * r * length) + leg.sole * (0.02 * r);
+        let end = palm + way * (2.4 * r * length) + leg.sole * (0.36 * r);
+        let claw = palm + way * (2.95 * r * length) + leg.sole * (1.05 * r);
         sculpture
             .add(Part::limb((palm, 0.36 * r), (knuckle, 0.30 * r), leg.sole).blended(0.25 * r));
         sculpture
