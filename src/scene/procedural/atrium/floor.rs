@@ -105,38 +105,30 @@ fn court(stone: &mut MeshBuilder, random: &mut ChaCha20Rng) {
     }
 }
 
-/// Clay tiles behind the arches, all round, up to the slabs the columns stand on.
+/// Clay tiles behind the arches, all round, up to the slabs the columns stand on, with a
+/// row of stone along those.
 fn walks(stuff: &mut Stuff, random: &mut ChaCha20Rng) {
-    let inner = Vec2::new(HALF_LENGTH_M, HALF_WIDTH_M) - Vec2::splat(0.5);
+    // The columns' slabs reach half a metre back and stand a little proud of the tiles.
+    let slabs = Vec2::new(HALF_LENGTH_M, HALF_WIDTH_M) + Vec2::splat(0.5);
+    let top_m = -0.006;
     let outer = Vec2::new(HALF_LENGTH_M, HALF_WIDTH_M) + Vec2::splat(WALK_M);
     let count = (outer * 2.0 / CLAY_M).ceil().as_ivec2();
     for row in 0..count.y {
         for column in 0..count.x {
             let low = Vec2::new(column as f32, row as f32) * CLAY_M - outer;
             let high = low + Vec2::splat(CLAY_M);
-            let middle = (low + high) * 0.5;
-            let beside = (middle.abs() - inner).max_element();
-            if beside < 0.0 {
+            let beside_m = ((low + high).abs() * 0.5 - slabs).max_element();
+            if beside_m < -0.5 * CLAY_M {
                 continue;
             }
-            let border = beside < 1.0;
-            if border {
-                let tint = if (row + column) % 2 == 0 {
-                    CREAM
-                } else {
-                    SLATE * 1.5
-                };
-                lay(&mut stuff.floor, &rectangle(low, high), 0.0, tint, random);
+            let (builder, tint) = if beside_m > 0.5 * CLAY_M {
+                (&mut stuff.terracotta, Vec3::new(0.55, 0.56, 0.58))
+            } else if (row + column) % 2 == 0 {
+                (&mut stuff.floor, CREAM)
             } else {
-                let tint = Vec3::new(0.55, 0.56, 0.58);
-                lay(
-                    &mut stuff.terracotta,
-                    &rectangle(low, high),
-                    0.0,
-                    tint,
-                    random,
-                );
-            }
+                (&mut stuff.floor, SLATE * 1.5)
+            };
+            lay(builder, &rectangle(low, high), top_m, tint, random);
         }
     }
 }

@@ -266,9 +266,9 @@ impl Curtain {
         cord.sheet(8, 32, |s, t| {
             let around = on_circle(-t * TAU);
             let rim = Vec3::new(
-                around.x * (0.5 * waist_m + 0.05),
-                0.10 * -around.x,
-                around.y * 0.15,
+                around.x * (0.5 * waist_m + 0.015),
+                0.05 * -around.x,
+                around.y * 0.12,
             );
             let out = Vec3::new(around.x, 0.0, around.y);
             let c = on_circle(s * TAU) * 0.022;
