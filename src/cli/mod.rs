@@ -5,6 +5,7 @@ mod browse;
 mod check;
 mod demo;
 mod logging;
+mod model;
 mod order;
 mod output;
 mod render;
@@ -34,6 +35,7 @@ enum Command {
     Demo(demo::Demo),
     #[command(visible_alias = "import")]
     Render(render::RenderArgs),
+    Model(model::ModelArgs),
     Check(check::Check),
     Browse(browse::Browse),
     Run(Box<run::Run>),
@@ -108,6 +110,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
     match cli.command {
         Command::Demo(args) => demo::run(&args, verbosity),
         Command::Render(args) => render::run(&args, verbosity),
+        Command::Model(args) => model::run(&args, verbosity),
         Command::Check(args) => check::run(&args, verbosity),
         Command::Browse(args) => browse::run(&args),
         Command::Run(args) => run::run(&args, verbosity),

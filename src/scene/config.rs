@@ -5,6 +5,7 @@
 //! validity levels of one scene share what they share.
 
 mod file;
+mod geometry;
 mod lighting;
 
 pub(crate) use self::file::{Stops, ToneMapFile};
@@ -17,7 +18,7 @@ use toml::Spanned;
 
 use self::file::{CameraFile, Coordinate, Point, SceneFile};
 use super::lighting::Lighting;
-use super::procedural::{self, Generator};
+use super::model::ModelError;
 use super::{Camera, GeometrySource};
 use crate::config::{self, ConfigError};
 
@@ -27,6 +28,9 @@ pub enum SceneError {
     /// Its config is wrong.
     #[error(transparent)]
     Config(#[from] ConfigError),
+    /// The model it is made of is.
+    #[error(transparent)]
+    Model(#[from] ModelError),
 }
 
 /// A scene config, validated.
@@ -59,6 +63,9 @@ pub struct OcclusionConfig {
     pub blur_radius_px: u32,
     /// Distance from the centre's plane at which a blur tap has lost 63 % of its weight, metres.
     pub blur_plane_m: f32,
+    /// Whether the occlusion that a model's author has baked into textures counts, on
+    /// top of any other.
+    pub baked: bool,
     /// Parameters by technique: name, value and byte range in the file.
     pub techniques: TechniqueParameters,
 }
@@ -95,15 +102,13 @@ impl SceneConfig {
             path: path.to_owned(),
             text: text.to_owned(),
             title: file.title,
-            geometry: GeometrySource::Generated {
-                generator: find_generator(&file.geometry.generator, source)?,
-                seed: file.seed,
-            },
+            geometry: geometry::resolve(file.geometry, file.seed, source)?,
             camera: camera(&file.camera, source)?,
             supersampling: file.image.supersampling.get(),
             occlusion: OcclusionConfig {
                 blur_radius_px: file.occlusion.blur_radius_px.get(),
                 blur_plane_m: file.occlusion.blur_plane_m.get(),
+                baked: file.occlusion.baked,
                 techniques: file.technique,
             },
             lightings,
@@ -137,24 +142,6 @@ impl Source<'_> {
     fn error(self, span: std::ops::Range<usize>, field: &str, message: &str) -> ConfigError {
         ConfigError::at(self.path, self.text, Some(span), field, message)
     }
-}
-
-fn find_generator(
-    name: &Spanned<String>,
-    source: Source<'_>,
-) -> Result<&'static Generator, ConfigError> {
-    procedural::find(name.get_ref()).ok_or_else(|| {
-        let known: Vec<&str> = procedural::GENERATORS.iter().map(|g| g.name).collect();
-        source.error(
-            name.span(),
-            "geometry.generator",
-            &format!(
-                "found \"{}\", allowed are: {}",
-                name.get_ref(),
-                known.join(", ")
-            ),
-        )
-    })
 }
 
 fn camera(file: &CameraFile, source: Source<'_>) -> Result<Camera, ConfigError> {

@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::Environment;
+use super::geometry::ModelLights;
 
 /// Light from everywhere, the part that occlusion takes away.
 #[derive(Debug, Clone, PartialEq)]
@@ -122,6 +123,37 @@ impl std::fmt::Display for ToneMap {
     }
 }
 
+impl Lighting {
+    /// This lighting with the model's own lights in it, in the scene's units, where the
+    /// variant asks for them.
+    ///
+    /// A scene has one sun: the variant's own, or else the brightest of the model's.
+    #[must_use]
+    pub fn with_model_lights(&self, lights: &ModelLights) -> Self {
+        let mut lit = self.clone();
+        let Some(factor) = self.model_lights else {
+            return lit;
+        };
+        let brightness = |sun: &Sun| sun.irradiance.element_sum();
+        let brightest = lights
+            .suns
+            .iter()
+            .max_by(|a, b| brightness(a).total_cmp(&brightness(b)));
+        lit.sun = lit.sun.or_else(|| {
+            brightest.map(|sun| Sun {
+                irradiance: sun.irradiance * factor,
+                ..sun.clone()
+            })
+        });
+        lit.points
+            .extend(lights.points.iter().map(|light| PointLight {
+                intensity: light.intensity * factor,
+                ..light.clone()
+            }));
+        lit
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -140,5 +172,49 @@ mod tests {
                 .collect();
             assert!(values.is_sorted_by(|a, b| a < b), "{map}");
         }
+    }
+
+    fn sun(irradiance: f32) -> Sun {
+        Sun {
+            towards: Vec3::Y,
+            irradiance: Vec3::splat(irradiance),
+            casts_shadows: true,
+        }
+    }
+
+    #[test]
+    fn model_lights_shine_only_where_they_are_asked_for() {
+        let lights = ModelLights {
+            suns: vec![sun(100.0), sun(300.0), sun(200.0)],
+            points: vec![PointLight {
+                position_m: Vec3::ONE,
+                intensity: Vec3::new(50.0, 100.0, 0.0),
+                cone: None,
+            }],
+        };
+        let dark = Lighting {
+            ambient: Ambient::Constant(Vec3::ONE),
+            background: Background::Colour(Vec3::ONE),
+            reflections: false,
+            sun: None,
+            points: Vec::new(),
+            model_lights: None,
+            environment: None,
+            exposure_ev: 0.0,
+            tone_map: ToneMap::None,
+        };
+        assert_eq!(dark.with_model_lights(&lights), dark);
+        let asking = Lighting {
+            model_lights: Some(0.01),
+            ..dark
+        };
+        let lit = asking.with_model_lights(&lights);
+        assert_eq!(lit.sun, Some(sun(3.0)));
+        assert_eq!(lit.points[0].intensity, Vec3::new(0.5, 1.0, 0.0));
+        let own = Lighting {
+            sun: Some(sun(7.0)),
+            ..asking
+        };
+        assert_eq!(own.with_model_lights(&lights).sun, Some(sun(7.0)));
     }
 }

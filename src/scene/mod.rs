@@ -10,6 +10,7 @@ pub mod config;
 pub mod environment;
 pub mod geometry;
 pub mod lighting;
+pub mod model;
 pub mod modelling;
 pub mod primitives;
 pub mod procedural;

@@ -40,7 +40,8 @@ pub struct StimulusSet {
     pub scenes: Vec<SceneConfig>,
     /// The conditions, in the file's order.
     pub conditions: Vec<SetCondition>,
-    /// SHA-256 of this file's text and of the scenes' texts, in order.
+    /// SHA-256 of this file's text, of the scenes' texts, in order, and of the files of
+    /// their models.
     pub sha256: String,
 }
 
@@ -137,9 +138,7 @@ impl StimulusSet {
             }
             conditions.push(resolved);
         }
-        let texts: Vec<&str> = std::iter::once(text)
-            .chain(loader.scenes.iter().map(|s| s.text.as_str()))
-            .collect();
+        let sha256 = sha256(text, &loader.scenes)?;
         let renders = !loader.scenes.is_empty();
         let missing = |key: &str| {
             let message = format!("missing field `{key}`, which a set that renders images needs");
@@ -162,7 +161,7 @@ impl StimulusSet {
             size_px,
             precision: file.precision,
             all_effects: false,
-            sha256: digest::sha256_hex(texts.join("\0").as_bytes()),
+            sha256,
             scenes: loader.scenes,
             conditions,
         })
@@ -217,6 +216,16 @@ impl StimulusSet {
     pub fn default_folder(&self) -> PathBuf {
         self.path.with_file_name(&self.id)
     }
+}
+
+/// Of everything that makes the images but the program.
+fn sha256(text: &str, scenes: &[SceneConfig]) -> Result<String, SceneError> {
+    let mut parts = vec![text.to_owned()];
+    parts.extend(scenes.iter().map(|scene| scene.text.clone()));
+    for scene in scenes {
+        parts.extend(scene.geometry.sha256()?);
+    }
+    Ok(digest::sha256_hex(parts.join("\0").as_bytes()))
 }
 
 impl SetCondition {

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::TechniqueParameters;
+use super::geometry::GeometryFile;
 use crate::config::quantity;
 use crate::scene::ToneMap;
 
@@ -16,6 +17,10 @@ quantity::quantity! {
 quantity::quantity! {
     /// One component of a linear radiance or irradiance.
     Light: f32, 0.0, 10_000.0, ""
+}
+quantity::quantity! {
+    /// What a model's lights, in candela and lux, are multiplied by.
+    LightFactor: f32, 0.0, 1_000_000.0, ""
 }
 quantity::quantity! {
     /// One coordinate of a point.
@@ -61,12 +66,6 @@ pub(super) struct SceneFile {
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct GeometryFile {
-    pub generator: Spanned<String>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct CameraFile {
     pub position_m: Point,
     pub target_m: Spanned<Point>,
@@ -94,6 +93,7 @@ impl Default for ImageFile {
 pub(super) struct OcclusionFile {
     pub blur_radius_px: BlurRadius,
     pub blur_plane_m: PositiveMetres,
+    pub baked: bool,
 }
 
 impl Default for OcclusionFile {
@@ -101,6 +101,7 @@ impl Default for OcclusionFile {
         Self {
             blur_radius_px: BlurRadius(4),
             blur_plane_m: PositiveMetres(0.05),
+            baked: false,
         }
     }
 }
@@ -124,6 +125,7 @@ pub(super) struct LightingFile {
     pub background: Option<Spanned<BackgroundFile>>,
     pub reflections: Option<Spanned<bool>>,
     pub sun: Option<SunFile>,
+    pub model_lights: Option<LightFactor>,
     pub exposure_ev: Option<Stops>,
     pub tone_map: Option<ToneMapFile>,
 }

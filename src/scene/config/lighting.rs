@@ -3,8 +3,8 @@
 use glam::Vec3;
 
 use super::file::{
-    AmbientFile, BackgroundFile, Colour, EnvironmentFile, Light, LightingFile, SceneFile, Stops,
-    SunFile,
+    AmbientFile, BackgroundFile, Colour, EnvironmentFile, Light, LightFactor, LightingFile,
+    SceneFile, Stops, SunFile,
 };
 use super::{Source, point};
 use crate::config::ConfigError;
@@ -62,7 +62,7 @@ pub(super) fn resolve(
             .map(|file| sun(&file, &field("sun"), source))
             .transpose()?,
         points: Vec::new(),
-        model_lights: None,
+        model_lights: merged.model_lights.map(LightFactor::get),
         environment: environment.filter(|_| {
             reflections || ambient == Ambient::Environment || background == Background::Environment
         }),
@@ -86,6 +86,7 @@ fn merge_chain(
         merged.background = merged.background.or_else(|| current.background.clone());
         merged.reflections = merged.reflections.or_else(|| current.reflections.clone());
         merged.sun = merged.sun.or_else(|| current.sun.clone());
+        merged.model_lights = merged.model_lights.or(current.model_lights);
         merged.exposure_ev = merged.exposure_ev.or(current.exposure_ev);
         merged.tone_map = merged.tone_map.or(current.tone_map);
         let Some(parent) = &current.extends else {
