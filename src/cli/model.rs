@@ -21,14 +21,21 @@ pub struct ModelArgs {
     #[arg(long, default_value_t = 1.0, value_parser = positive)]
     scale: f32,
     /// Which axis of the file points up.
-    #[arg(long, value_enum, default_value_t)]
-    up: Up,
+    #[arg(long, value_enum, default_value = "y")]
+    up: UpArg,
     /// Pose it by this animation, named or numbered from 0.
     #[arg(long, value_name = "NAME|NUMBER")]
     animation: Option<String>,
     /// At this moment of the animation, seconds.
     #[arg(long, value_name = "SECONDS", default_value_t = 0.0)]
     time: f32,
+}
+
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+enum UpArg {
+    X,
+    Y,
+    Z,
 }
 
 fn positive(text: &str) -> Result<f32, String> {
@@ -45,7 +52,11 @@ fn positive(text: &str) -> Result<f32, String> {
 pub fn run(args: &ModelArgs, verbosity: Verbosity) -> Result<(), Failure> {
     let options = ModelOptions {
         scale: args.scale,
-        up: args.up,
+        up: match args.up {
+            UpArg::X => Up::X,
+            UpArg::Y => Up::Y,
+            UpArg::Z => Up::Z,
+        },
         animation: args.animation.as_ref().map(|text| match text.parse() {
             Ok(index) => AnimationChoice::Index(index),
             Err(_) => AnimationChoice::Name(text.clone()),

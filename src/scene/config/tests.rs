@@ -1,5 +1,6 @@
 use super::*;
 use crate::scene::lighting::Ambient;
+use crate::scene::model::{AnimationChoice, ModelOptions, Up};
 
 const GOOD: &str = r#"
 title = "A test"
@@ -169,6 +170,90 @@ fn a_sun_without_direction_is_refused() {
         &message("[1, 2, 0], irr", "[0, 0, 0], irr"),
         &["lighting.high.sun.towards"],
     );
+}
+
+/// A model's file beside the scene's, and a scene that uses it.
+fn parse_with_model(geometry: &str) -> Result<SceneConfig, SceneError> {
+    let dir = tempfile::tempdir().unwrap();
+    std::fs::write(dir.path().join("fox.glb"), "any").unwrap();
+    let text = GOOD.replacen("generator = \"atrium\"", geometry, 1);
+    SceneConfig::parse(&dir.path().join("test.toml"), &text)
+}
+
+#[test]
+fn a_model_is_read_beside_the_scene() {
+    let geometry = "file = \"fox.glb\"\nscale = 0.01\nup = \"z\"\nground = true\n\
+                    animation = \"Walk\"\ntime_s = 0.3\ncrease_deg = 90\n\
+                    albedo = [0.1, 0.2, 0.3]\nroughness = 0.4";
+    let scene = parse_with_model(geometry).unwrap();
+    let GeometrySource::File { path, options } = scene.geometry else {
+        panic!("{:?}", scene.geometry);
+    };
+    assert!(path.ends_with("fox.glb"));
+    let expected = ModelOptions {
+        scale: 0.01,
+        up: Up::Z,
+        ground: true,
+        animation: Some(AnimationChoice::Name(String::from("Walk"))),
+        time_s: 0.3,
+        crease_rad: Some(90.0_f32.to_radians()),
+        albedo: Some([0.1, 0.2, 0.3]),
+        roughness: Some(0.4),
+        ..ModelOptions::default()
+    };
+    assert_eq!(options, expected);
+    let by_number = parse_with_model("file = \"fox.glb\"\nanimation = 2").unwrap();
+    let GeometrySource::File { options, .. } = by_number.geometry else {
+        panic!("{:?}", by_number.geometry);
+    };
+    assert_eq!(options.animation, Some(AnimationChoice::Index(2)));
+}
+
+#[test]
+fn geometry_is_a_file_or_a_generator() {
+    let message = |geometry: &str| parse_with_model(geometry).unwrap_err().to_string();
+    assert_parts(
+        &message("file = \"no.glb\""),
+        &["test.toml:6", "geometry.file", "no.glb"],
+    );
+    assert_parts(
+        &message("file = \"fox.glb\"\ngenerator = \"atrium\""),
+        &["geometry.file", "one of them"],
+    );
+    assert_parts(&message(""), &["`geometry`", "generator", "file"]);
+    assert_parts(
+        &message("generator = \"atrium\"\nscale = 2"),
+        &["test.toml:7", "geometry.scale", "generator"],
+    );
+    assert_parts(
+        &message("file = \"fox.glb\"\nscale = 0"),
+        &["geometry.scale", "m per unit"],
+    );
+    assert_parts(
+        &message("file = \"fox.glb\"\nup = \"w\""),
+        &["geometry.up", "`x`", "`y`", "`z`"],
+    );
+}
+
+#[test]
+fn model_lights_are_inherited_like_everything_else() {
+    let text = GOOD.replacen(
+        "[lighting.high]\n",
+        "[lighting.high]\nmodel_lights = 0.01\n",
+        1,
+    );
+    let text = format!("{text}\n[lighting.higher]\nextends = \"high\"\n");
+    let scene = parse(&text).unwrap();
+    for (name, factor) in [
+        ("moderate", None),
+        ("high", Some(0.01)),
+        ("higher", Some(0.01)),
+    ] {
+        assert_eq!(scene.lighting(name).unwrap().model_lights, factor, "{name}");
+    }
+    assert!(!scene.occlusion.baked);
+    let text = format!("{GOOD}\n[occlusion]\nbaked = true\n");
+    assert!(parse(&text).unwrap().occlusion.baked);
 }
 
 proptest::proptest! {

@@ -33,7 +33,7 @@ use super::{Geometry, Material};
 use crate::digest;
 
 /// Which axis of the file points up.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Up {
     /// +X.

@@ -35,8 +35,13 @@ pub(super) fn compute(
         })
         .collect();
     if crease_rad <= 0.0 {
-        let flat = |corner: usize| upright(faces[corner / 3]);
-        return split(place, vertices, indices, budget, flat, set);
+        budget.vertices(place, indices.len() as u64)?;
+        unshare(vertices, indices, &faces);
+        return Ok(());
+    }
+    // Those that no triangle uses keep it.
+    for vertex in vertices.iter_mut() {
+        vertex.normal = Vec3::Y.to_array();
     }
     let around = Around::new(vertices, indices);
     let angles: Vec<f32> = (0..indices.len())
@@ -59,6 +64,19 @@ pub(super) fn compute(
     };
     let normals: Vec<[f32; 3]> = (0..indices.len()).map(smooth).collect();
     split(place, vertices, indices, budget, |c| normals[c], set)
+}
+
+/// Gives every triangle three vertices of its own, with its normal.
+fn unshare(vertices: &mut Vec<Vertex>, indices: &mut [u32], faces: &[Vec3]) {
+    let mut own = Vec::with_capacity(indices.len());
+    for (corner, index) in indices.iter_mut().enumerate() {
+        own.push(Vertex {
+            normal: upright(faces[corner / 3]),
+            ..vertices[*index as usize]
+        });
+        *index = corner as u32;
+    }
+    *vertices = own;
 }
 
 fn set(vertex: &mut Vertex, normal: [f32; 3]) {

@@ -297,3 +297,18 @@ fn wrong_loaded_conditions_are_refused_with_line_and_field() {
         assert_parts(&loaded_message(from, to), &parts);
     }
 }
+
+/// A model that has changed, or a texture of it, makes other images.
+#[test]
+fn a_changed_model_is_a_changed_set() {
+    let files = Files::new(&SCENE.replace("generator = \"atrium\"", "file = \"m.obj\""));
+    let model = files.dir.path().join("scenes/m.obj");
+    std::fs::write(&model, "mtllib m.mtl\nv 0 0 0").unwrap();
+    let first = files.parse(SET).unwrap().sha256;
+    assert_eq!(files.parse(SET).unwrap().sha256, first);
+    std::fs::write(files.dir.path().join("scenes/m.mtl"), "newmtl a").unwrap();
+    let second = files.parse(SET).unwrap().sha256;
+    assert_ne!(second, first);
+    std::fs::write(&model, "mtllib m.mtl\nv 0 0 1").unwrap();
+    assert_ne!(files.parse(SET).unwrap().sha256, second);
+}

@@ -14,6 +14,9 @@ use super::document::{Document, look_up};
 /// Bytes read from a buffer at once.
 const BLOCK_BYTES: u64 = 1 << 18;
 
+/// Takes an element's number and bytes.
+type TakeElement<'f> = dyn FnMut(u64, &[u8]) -> Result<(), Fault> + 'f;
+
 /// An accessor whose every element is known to lie within its buffer.
 pub(super) struct Accessor<'a> {
     document: &'a Document,
@@ -193,7 +196,7 @@ impl<'a> Accessor<'a> {
         &self,
         packed: &Packed,
         elements: Range<u64>,
-        each: &mut dyn FnMut(u64, &[u8]) -> Result<(), Fault>,
+        each: &mut TakeElement,
     ) -> Result<(), Fault> {
         let element = self.element_bytes();
         let stride = packed.stride as usize;

@@ -1,6 +1,7 @@
 //! The pose of the nodes at one moment of one animation.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use glam::{Quat, Vec3};
 use gltf::json;
@@ -118,29 +119,38 @@ impl Times {
         input: json::Index<json::Accessor>,
         user: &str,
     ) -> Result<&[f32], Fault> {
-        if !self.known.contains_key(&input.value()) {
-            let accessor = Accessor::open(document, input, user)?;
-            if !(1..=MOST_KEYS).contains(&accessor.count) {
-                let message = format!(
-                    "{} key frames; 1 to {MOST_KEYS} are allowed",
-                    accessor.count
-                );
-                return Err(Fault::new(&accessor.place, message));
-            }
-            let mut times: Vec<f32> = Vec::new();
-            accessor.for_each_float(|i, [time_s]| {
-                if times.last().is_some_and(|&last| time_s < last) {
-                    let message =
-                        format!("key frame {i} is at {time_s} s, before the one before it");
-                    return Err(Fault::new(&accessor.place, message));
-                }
-                times.push(time_s);
-                Ok(())
-            })?;
-            self.known.insert(input.value(), times);
+        match self.known.entry(input.value()) {
+            Entry::Occupied(known) => Ok(known.into_mut()),
+            Entry::Vacant(new) => Ok(new.insert(key_times(document, input, user)?)),
         }
-        Ok(&self.known[&input.value()])
     }
+}
+
+/// Reads and checks the key times of a sampler.
+fn key_times(
+    document: &Document,
+    input: json::Index<json::Accessor>,
+    user: &str,
+) -> Result<Vec<f32>, Fault> {
+    let accessor = Accessor::open(document, input, user)?;
+    if !(1..=MOST_KEYS).contains(&accessor.count) {
+        let message = format!(
+            "{} key frames; 1 to {MOST_KEYS} are allowed",
+            accessor.count
+        );
+        return Err(Fault::new(&accessor.place, message));
+    }
+    let mut times: Vec<f32> = Vec::new();
+    accessor.for_each_float(|i, [time_s]| {
+        if times.last().is_some_and(|&last| time_s < last) {
+            let message =
+                format!("key frame {i} is at {time_s} s, before the one before it");
+            return Err(Fault::new(&accessor.place, message));
+        }
+        times.push(time_s);
+        Ok(())
+    })?;
+    Ok(times)
 }
 
 /// The values of one property over time.

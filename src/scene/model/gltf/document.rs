@@ -76,8 +76,8 @@ impl Document {
     /// a warning.
     pub fn check_extensions(&self, warnings: &mut Warnings) -> Result<(), Fault> {
         let unknown = |name: &&String| !KNOWN_EXTENSIONS.contains(&name.as_str());
-        let required = self.root.extensions_required.iter().enumerate();
-        for (index, name) in required.filter(|(_, name)| unknown(name)) {
+        let mut required = self.root.extensions_required.iter().enumerate();
+        if let Some((index, name)) = required.find(|(_, name)| unknown(name)) {
             return Err(Fault::new(
                 format!("extensionsRequired[{index}]"),
                 format!(

@@ -51,7 +51,7 @@ fn push(mode: Mode, i: usize, index: u32, window: &mut [u32; 3], triangles: &mut
             *window = [a, b, index];
             if i >= 2 {
                 // Every other triangle of a strip is wound the other way.
-                triangles.extend(if i % 2 == 0 {
+                triangles.extend(if i.is_multiple_of(2) {
                     [a, b, index]
                 } else {
                     [b, a, index]

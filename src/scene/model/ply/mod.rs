@@ -110,7 +110,7 @@ impl Vertices {
         // Where each property goes, if it goes anywhere.
         let slot = |property: &Property| {
             let known = |names: &&[&str]| names.contains(&property.name.as_str());
-            SCALARS.iter().position(|names| known(&names))
+            SCALARS.iter().position(known)
         };
         let slots: Vec<Option<usize>> = element.properties.iter().map(slot).collect();
         let has = |all: std::ops::Range<usize>| all.clone().all(|s| slots.contains(&Some(s)));

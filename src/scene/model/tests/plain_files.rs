@@ -131,7 +131,7 @@ fn broken_plys_say_where() {
     assert_parts(&message("uchar red", "byte red"), &["line 8", "byte red"]);
     assert_parts(&message("format ascii 1.0\n", ""), &["no format"]);
     assert_parts(
-        &message("1 0 -1 255", "1 0 x 255"),
+        &message("\n1 0 -1 255", "\n1 0 x 255"),
         &["line 18", "\"x\"", "number"],
     );
     assert_parts(
