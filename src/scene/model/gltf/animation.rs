@@ -143,8 +143,7 @@ fn key_times(
     let mut times: Vec<f32> = Vec::new();
     accessor.for_each_float(|i, [time_s]| {
         if times.last().is_some_and(|&last| time_s < last) {
-            let message =
-                format!("key frame {i} is at {time_s} s, before the one before it");
+            let message = format!("key frame {i} is at {time_s} s, before the one before it");
             return Err(Fault::new(&accessor.place, message));
         }
         times.push(time_s);
