@@ -89,9 +89,6 @@ impl<'a> Materials<'a> {
         let pbr = &json.pbr_metallic_roughness;
         let extensions = json.extensions.as_ref();
         let [r, g, b, alpha] = pbr.base_color_factor.0.map(|c| c.clamp(0.0, 1.0));
-        let strength = extensions
-            .and_then(|e| e.emissive_strength.as_ref())
-            .map_or(1.0, |e| e.emissive_strength.0);
         let mut slots = Slots {
             materials: self,
             loading,
@@ -119,10 +116,7 @@ impl<'a> Materials<'a> {
                 linear,
             )?,
             metallic: pbr.metallic_factor.0.clamp(0.0, 1.0),
-            emission: json
-                .emissive_factor
-                .0
-                .map(|c| (c * strength).clamp(0.0, BRIGHTEST)),
+            emission: emission(json),
             emission_texture: slots.info(
                 "emissiveTexture",
                 json.emissive_texture.as_ref(),
@@ -236,6 +230,16 @@ impl Slots<'_, '_, '_, '_> {
             }
         }
     }
+}
+
+/// Linear radiance that the surface sends out.
+fn emission(json: &json::Material) -> [f32; 3] {
+    let extensions = json.extensions.as_ref();
+    let strength = extensions
+        .and_then(|e| e.emissive_strength.as_ref())
+        .map_or(1.0, |e| e.emissive_strength.0);
+    let factor = json.emissive_factor.0;
+    factor.map(|c| (c * strength).clamp(0.0, BRIGHTEST))
 }
 
 const TRANSFORM: &str = "KHR_texture_transform";

@@ -14,6 +14,7 @@ mod primitive;
 mod skin;
 mod texture;
 mod triangles;
+mod world;
 
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,6 @@
 //! Primitives of meshes, as triangles in world space.
 
-use glam::{Affine3A, Mat3A, Vec3, Vec3A};
+use glam::{Affine3A, Mat3A, Vec3A};
 use gltf::json;
 use gltf::json::mesh::{MorphTarget, Primitive, Semantic};
 use gltf::json::validation::Checked;
@@ -11,6 +11,7 @@ use super::accessor::Accessor;
 use super::document::Document;
 use super::material::{Materials, Used};
 use super::triangles;
+use super::world::{Directions, is_finite, place};
 use crate::scene::{Mesh, Vertex};
 
 /// A mesh as one node shows it.
@@ -270,7 +271,7 @@ impl<'a> Reader<'a> {
                 }
             }
         }
-        match vertices.iter().position(|v| !finite(v)) {
+        match vertices.iter().position(|vertex| !is_finite(vertex)) {
             Some(index) => Err(Fault::new(
                 &self.place,
                 format!("vertex {index} lies at infinity; look at its node's transform"),
@@ -362,53 +363,4 @@ impl<'a> Reader<'a> {
             }
         }
     }
-}
-
-/// What a transform does to directions.
-struct Directions {
-    /// Normals stay at right angles to the surface: the inverse transposed, up to a
-    /// positive factor.
-    normal: Mat3A,
-    mirrors: bool,
-}
-
-impl Directions {
-    fn new(matrix: &Affine3A) -> Self {
-        let [x, y, z] = [
-            matrix.matrix3.x_axis,
-            matrix.matrix3.y_axis,
-            matrix.matrix3.z_axis,
-        ];
-        // The cofactors are there even where the transform flattens everything and
-        // has no inverse.
-        let cofactors = Mat3A::from_cols(y.cross(z), z.cross(x), x.cross(y));
-        let mirrors = x.dot(y.cross(z)) < 0.0;
-        Self {
-            normal: if mirrors { -cofactors } else { cofactors },
-            mirrors,
-        }
-    }
-}
-
-/// Transforms a vertex; says whether that mirrored it.
-fn place(vertex: &mut Vertex, matrix: &Affine3A, directions: &Directions) -> bool {
-    let position = matrix.transform_point3a(Vec3A::from(vertex.position_m));
-    vertex.position_m = position.to_array();
-    let normal = directions.normal * Vec3A::from(vertex.normal);
-    vertex.normal = normal.normalize_or(Vec3A::Y).to_array();
-    let [x, y, z, w] = vertex.tangent;
-    let tangent = (matrix.matrix3 * Vec3A::new(x, y, z)).normalize_or(Vec3A::X);
-    // A mirror turns the cross product round, and with it the bitangent.
-    let handedness = if (w < 0.0) == directions.mirrors {
-        1.0
-    } else {
-        -1.0
-    };
-    vertex.tangent = Vec3::from(tangent).extend(handedness).to_array();
-    directions.mirrors
-}
-
-fn finite(vertex: &Vertex) -> bool {
-    let all = vertex.position_m.iter().chain(&vertex.normal);
-    all.chain(&vertex.tangent).all(|x| x.is_finite())
 }
