@@ -40,7 +40,8 @@ pub fn parse<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, ConfigEr
     let deserializer = toml::Deserializer::parse(text)
         .map_err(|error| ConfigError::at(path, text, error.span(), "", error.message()))?;
     serde_path_to_error::deserialize(deserializer).map_err(|error| {
-        let field = error.path().to_string();
+        // The path goes through the wrapper that keeps a value's place in the file.
+        let field = (error.path().to_string()).replace("$__serde_spanned_private_value.", "");
         let inner = error.into_inner();
         ConfigError::at(path, text, inner.span(), &field, inner.message())
     })

@@ -4,11 +4,13 @@
 //! here, and its lighting variants. A variant may `extend` another, so that the
 //! validity levels of one scene share what they share.
 
+mod environment;
 mod file;
 mod geometry;
+mod light_file;
 mod lighting;
 
-pub(crate) use self::file::{Stops, ToneMapFile};
+pub(crate) use self::light_file::{Stops, ToneMapFile};
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -89,10 +91,16 @@ impl SceneConfig {
     pub fn parse(path: &Path, text: &str) -> Result<Self, SceneError> {
         let file: SceneFile = config::parse(path, text)?;
         let source = Source { path, text };
+        let environment = file
+            .environment
+            .as_ref()
+            .map(|environment| environment::environment(environment, source))
+            .transpose()?;
+        let resolve = |name| lighting::resolve(&file, name, environment.as_ref(), source);
         let lightings = file
             .lighting
             .keys()
-            .map(|name| Ok((name.clone(), lighting::resolve(&file, name, source)?)))
+            .map(|name| Ok((name.clone(), resolve(name)?)))
             .collect::<Result<_, ConfigError>>()?;
         Ok(Self {
             id: path.file_stem().map_or_else(

@@ -5,6 +5,7 @@
 //! triangles are counter-clockwise seen from outside; colours are linear unless a
 //! name says sRGB.
 
+pub mod brdf;
 pub mod camera;
 pub mod config;
 pub mod environment;
