@@ -3,15 +3,14 @@
 use glam::{Mat4, Vec3};
 
 use super::frame::{FrameRequest, SHADOW_SIZE_PX};
-use super::shadow_view::ShadowView;
-use crate::scene::{Ambient, Background, Irradiance, PointLight};
+use super::shadow_view::{SUN_RADIUS, ShadowView};
+use crate::scene::{Ambient, Background, PointLight};
 
 /// The WGSL struct `Light`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct LightUniform {
     irradiance: [[f32; 4]; 9],
-    environment: [[f32; 4]; 6],
     constant_ambient: [f32; 4],
     background: [f32; 4],
     sun_towards: [f32; 4],
@@ -20,8 +19,13 @@ pub(super) struct LightUniform {
     shadow_weight: f32,
     reflection_weight: f32,
     sky_weight: f32,
+    environment_turn: f32,
+    environment_intensity: f32,
+    unused: [f32; 2],
     shadow_from_world: Mat4,
-    shadow_texel: [f32; 4],
+    shadow_right: [f32; 4],
+    shadow_up: [f32; 4],
+    shadow_depth: [f32; 4],
 }
 
 impl LightUniform {
@@ -35,10 +39,10 @@ impl LightUniform {
         uniform.reflection_weight = weight(lighting.reflections);
         uniform.sky_weight = weight(lighting.background == Background::Environment);
         if let Some(environment) = &lighting.environment {
-            uniform.environment = environment.axes.map(pad);
+            uniform.environment_turn = environment.about_y_rad() / std::f32::consts::TAU;
+            uniform.environment_intensity = environment.intensity();
             if lighting.ambient == Ambient::Environment {
-                let irradiance = Irradiance::project(|d| environment.radiance(d));
-                uniform.irradiance = irradiance.coefficients.map(pad);
+                uniform.irradiance = environment.irradiance().coefficients.map(pad);
             }
         }
         if let Ambient::Constant(radiance) = lighting.ambient {
@@ -55,11 +59,13 @@ impl LightUniform {
         }
         if let Some(shadow) = shadow {
             uniform.shadow_from_world = shadow.from_world;
-            uniform.shadow_texel = [
+            uniform.shadow_right = shadow.right.extend(shadow.uv_per_m.x).to_array();
+            uniform.shadow_up = shadow.up.extend(shadow.uv_per_m.y).to_array();
+            uniform.shadow_depth = [
+                shadow.depth_per_m,
                 shadow.texel_m,
-                1.0 / SHADOW_SIZE_PX as f32,
-                shadow.bias,
-                0.0,
+                SUN_RADIUS,
+                SHADOW_SIZE_PX as f32,
             ];
         }
         uniform

@@ -8,6 +8,7 @@
 mod bindings;
 mod buffers;
 pub mod device;
+mod environment;
 mod error;
 mod frame;
 mod light;

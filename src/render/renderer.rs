@@ -1,13 +1,14 @@
 //! Draws frames: a view of a scene, and images from it.
 
+use super::environment::EnvironmentTextures;
 use super::frame::{FrameRequest, SHADOW_SIZE_PX};
 use super::plan::{FramePlan, PassKind};
 use super::readback::FloatImage;
-use super::shading::{self, Shaded};
+use super::shading::{self, Drawn, Shaded};
 use super::surfaces::{SunVisibility, SurfaceKey, Surfaces};
 use super::upload::GpuScene;
 use super::{Gpu, RenderError};
-use crate::scene::Geometry;
+use crate::scene::{Environment, Geometry};
 use crate::stimulus::manifest::{PassRecord, Picture};
 
 /// Draws frames on one adapter.
@@ -68,6 +69,7 @@ impl Renderer {
             scene,
             surfaces: None,
             visibility: None,
+            environment: None,
         }
     }
 }
@@ -80,7 +82,12 @@ pub struct View<'a> {
     scene: &'a GpuScene,
     surfaces: Option<Surfaces>,
     visibility: Option<SunVisibility>,
+    /// The environment's textures, and what they are for.
+    environment: Option<(EnvironmentKey, EnvironmentTextures)>,
 }
+
+/// The environment, and whether the skybox and reflections read it.
+type EnvironmentKey = (Option<Environment>, [bool; 2]);
 
 impl<'a> View<'a> {
     /// Draws one image.
@@ -140,15 +147,20 @@ impl<'a> View<'a> {
             plan = FramePlan::new(request, facts);
         }
         self.sun_visibility(&filled, &plan, &mut passes);
-        let (Some(surfaces), visibility) = (&self.surfaces, &self.visibility) else {
+        self.environment(&filled, &plan);
+        let (Some(surfaces), Some((_, environment))) = (&self.surfaces, &self.environment) else {
             return Err(RenderError::Device(String::from("no surfaces were drawn")));
         };
-        let visibility = visibility
-            .as_ref()
+        let visibility = (self.visibility.as_ref())
             .filter(|_| plan.has(PassKind::ShadowFilter))
             .map(|visibility| &visibility.view);
         let lights = shading::lights_of(request);
-        let mut shaded = shading::shade(gpu, &filled, &plan, (surfaces, visibility), lights)?;
+        let drawn = Drawn {
+            surfaces,
+            visibility,
+            environment,
+        };
+        let mut shaded = shading::shade(gpu, &filled, &plan, drawn, lights)?;
         passes.append(&mut shaded.passes);
         Ok(Shaded { passes, ..shaded })
     }
@@ -160,6 +172,21 @@ impl<'a> View<'a> {
         let is_new = kept.is_none();
         let surfaces = kept.unwrap_or_else(|| Surfaces::draw(self.gpu, self.scene, request, plan));
         (self.surfaces.insert(surfaces), is_new)
+    }
+
+    /// Sees to it that the textures of the environment that the plan reads are there.
+    fn environment(&mut self, request: &FrameRequest, plan: &FramePlan) {
+        let environment = request.lighting.environment.clone();
+        let read = [PassKind::Skybox, PassKind::Reflections].map(|kind| plan.has(kind));
+        let key = (environment, read);
+        if self
+            .environment
+            .as_ref()
+            .is_none_or(|(kept, _)| *kept != key)
+        {
+            let textures = EnvironmentTextures::new(self.gpu, key.0.as_ref(), plan);
+            self.environment = Some((key, textures));
+        }
     }
 
     /// Sees to it that where the sun falls is there if the plan asks for it.

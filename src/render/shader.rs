@@ -17,8 +17,8 @@ const PARTS: &[(&str, &str)] = &[
     ("diffuse", include_str!("shaders/lighting/diffuse.wgsl")),
     ("radiance", include_str!("shaders/lighting/radiance.wgsl")),
     (
-        "environment_radiance",
-        include_str!("shaders/lighting/environment_radiance.wgsl"),
+        "equirectangular",
+        include_str!("shaders/lighting/equirectangular.wgsl"),
     ),
 ];
 

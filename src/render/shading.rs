@@ -4,6 +4,7 @@ use half::f16;
 use wgpu::util::DeviceExt;
 
 use super::bindings::uniform_of;
+use super::environment::EnvironmentTextures;
 use super::frame::{Formats, FrameRequest, FrameUniform, normals_part};
 use super::light::{LightUniform, PointUniform};
 use super::pass::{self, BlurInputs, LightInputs, OcclusionInputs};
@@ -37,7 +38,7 @@ pub(super) fn shade(
     gpu: &Gpu,
     request: &FrameRequest,
     plan: &FramePlan,
-    drawn: (&Surfaces, Option<&wgpu::TextureView>),
+    drawn: Drawn<'_>,
     lights: LightUniform,
 ) -> Result<Shaded, RenderError> {
     let shading = Shading::new(gpu, request, plan, drawn, lights);
@@ -63,13 +64,21 @@ pub(super) fn shade(
     })
 }
 
+/// What was made before, for all images of a scene that have it in common.
+#[derive(Clone, Copy)]
+pub(super) struct Drawn<'a> {
+    pub surfaces: &'a Surfaces,
+    /// How much of the directional light arrives.
+    pub visibility: Option<&'a wgpu::TextureView>,
+    pub environment: &'a EnvironmentTextures,
+}
+
 /// What the passes after the surfaces share.
 struct Shading<'a> {
     gpu: &'a Gpu,
     request: &'a FrameRequest,
     plan: &'a FramePlan,
-    surfaces: &'a Surfaces,
-    visibility: Option<&'a wgpu::TextureView>,
+    drawn: Drawn<'a>,
     normals_part: (&'static str, &'static str),
     /// Frame numbers at the shaded size, and at the image's.
     shaded_frame: wgpu::Buffer,
@@ -88,7 +97,7 @@ impl<'a> Shading<'a> {
         gpu: &'a Gpu,
         request: &'a FrameRequest,
         plan: &'a FramePlan,
-        (surfaces, visibility): (&'a Surfaces, Option<&'a wgpu::TextureView>),
+        drawn: Drawn<'a>,
         lights: LightUniform,
     ) -> Self {
         let frame = |size| uniform_of(&gpu.device, "frame", &[FrameUniform::new(request, size)]);
@@ -101,8 +110,7 @@ impl<'a> Shading<'a> {
             gpu,
             request,
             plan,
-            surfaces,
-            visibility,
+            drawn,
             normals_part: normals_part(plan, request.precision),
             shaded_frame: frame(request.shaded_size()),
             image_frame: frame(image_size),
@@ -170,12 +178,12 @@ impl<'a> Shading<'a> {
 
     fn occlusion(&self, encoder: &mut wgpu::CommandEncoder) {
         // Occlusion is planned with normals, always.
-        let (Some(normals), Some(target)) = (&self.surfaces.normals, &self.occlusion) else {
+        let (Some(normals), Some(target)) = (&self.drawn.surfaces.normals, &self.occlusion) else {
             return;
         };
         let inputs = OcclusionInputs {
             frame: &self.image_frame,
-            depth_m: &self.surfaces.depth_m,
+            depth_m: &self.drawn.surfaces.depth_m,
             normals,
             normals_part: self.normals_part,
             seed: self.request.seed,
@@ -190,12 +198,12 @@ impl<'a> Shading<'a> {
         from: &Option<wgpu::TextureView>,
         to: &Option<wgpu::TextureView>,
     ) {
-        let (Some(normals), Some(from), Some(to)) = (&self.surfaces.normals, from, to) else {
+        let (Some(normals), Some(from), Some(to)) = (&self.drawn.surfaces.normals, from, to) else {
             return;
         };
         let inputs = BlurInputs {
             frame: &self.image_frame,
-            depth_m: &self.surfaces.depth_m,
+            depth_m: &self.drawn.surfaces.depth_m,
             normals,
             normals_part: self.normals_part,
             occlusion: from,
@@ -214,15 +222,16 @@ impl<'a> Shading<'a> {
         LightInputs {
             frame: &self.shaded_frame,
             light: &self.light,
-            depth_m: &self.surfaces.depth_m,
-            albedo: &self.surfaces.albedo,
-            normals: self.surfaces.normals.as_ref(),
+            depth_m: &self.drawn.surfaces.depth_m,
+            albedo: &self.drawn.surfaces.albedo,
+            normals: self.drawn.surfaces.normals.as_ref(),
             normals_part: self.normals_part,
-            emission: self.surfaces.emission.as_ref(),
+            emission: self.drawn.surfaces.emission.as_ref(),
             is_baked: self.plan.reads_emission
                 && (self.request.baked_occlusion || self.request.all_effects),
             occlusion: self.occlusion.as_ref(),
-            visibility: self.visibility,
+            visibility: self.drawn.visibility,
+            environment: self.drawn.environment,
             points: self.points.as_ref(),
             has_irradiance: lighting.ambient == Ambient::Environment || self.request.all_effects,
             // As the target stores it, so that clearing has nothing to round.

@@ -155,7 +155,7 @@ impl SunVisibility {
         let bounds_m = scene
             .bounds_m
             .unwrap_or((glam::Vec3::NEG_ONE, glam::Vec3::ONE));
-        let shadow_view = ShadowView::new(sun.towards, bounds_m);
+        let shadow_view = ShadowView::new(sun.towards, bounds_m, &request.camera, request.aspect());
         let size = request.shaded_size();
         let frame = FrameUniform::new(request, size);
         let from_light = frame.from_light(shadow_view.from_world);

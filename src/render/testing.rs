@@ -65,9 +65,9 @@ pub(super) fn brightest(technique: &str) -> FrameRequest {
             cone: None,
         }],
         model_lights: None,
-        environment: Some(Environment {
-            axes: [0.3, 0.5, 1.0, 0.2, 0.4, 0.6].map(Vec3::splat),
-        }),
+        environment: Some(Environment::from_axes(
+            [0.3, 0.5, 1.0, 0.2, 0.4, 0.6].map(Vec3::splat),
+        )),
         exposure_ev: -0.5,
         tone_map: ToneMap::Aces,
     };

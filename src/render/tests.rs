@@ -13,6 +13,8 @@ use crate::scene::{
 };
 
 mod effects;
+mod environments;
 mod light;
 mod occlusion;
+mod shadows;
 mod surfaces;

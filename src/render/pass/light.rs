@@ -3,6 +3,7 @@
 
 use super::super::Gpu;
 use super::super::bindings::{Bindings, Bound};
+use super::super::environment::EnvironmentTextures;
 use super::super::plan::PassKind;
 use super::fullscreen::{Fullscreen, Onto};
 
@@ -20,6 +21,8 @@ pub(in super::super) struct LightInputs<'a> {
     pub occlusion: Option<&'a wgpu::TextureView>,
     /// How much of the directional light arrives.
     pub visibility: Option<&'a wgpu::TextureView>,
+    /// The environment; what no pass reads is absent.
+    pub environment: &'a EnvironmentTextures,
     /// The lights from points.
     pub points: Option<&'a wgpu::Buffer>,
     /// Whether the environment's irradiance is part of the ambient light.
@@ -40,7 +43,7 @@ impl<'a> LightInputs<'a> {
         }
         bindings = bindings.uniform(4, self.light);
         if kind == PassKind::Skybox {
-            return bindings;
+            return self.environment(bindings, self.environment.sky.as_ref());
         }
         bindings = bindings
             .texture_if_any(2, self.normals)
@@ -51,10 +54,34 @@ impl<'a> LightInputs<'a> {
                 Some(points) => bindings.storage(7, points),
                 None => bindings,
             },
-            _ => bindings
+            _ => self
+                .reflections(kind, bindings)
                 .texture_if_any(5, self.occlusion)
                 .texture_if_any(10, self.emission.filter(|_| self.is_baked)),
         }
+    }
+
+    fn reflections(&self, kind: PassKind, bindings: Bindings<'a>) -> Bindings<'a> {
+        match (kind, &self.environment.table) {
+            (PassKind::Reflections, Some(table)) => self
+                .environment(bindings, self.environment.blurred.as_ref())
+                .texture(14, table, true),
+            _ => bindings,
+        }
+    }
+
+    fn environment(
+        &self,
+        bindings: Bindings<'a>,
+        map: Option<&'a wgpu::TextureView>,
+    ) -> Bindings<'a> {
+        let Some(map) = map else {
+            return bindings;
+        };
+        let sampler = &self.environment.sampler;
+        bindings
+            .texture(12, map, true)
+            .sampler(13, sampler, wgpu::SamplerBindingType::Filtering)
     }
 
     /// What the ambient term is bound to, for a pass of it in `label`'s name.

@@ -88,11 +88,9 @@ pub(in super::super) fn shadow_filter(
     inputs: &FilterInputs,
     target: &wgpu::TextureView,
 ) {
+    // For gathers, which read and do not mix.
     let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
         label: Some("shadow"),
-        mag_filter: wgpu::FilterMode::Linear,
-        min_filter: wgpu::FilterMode::Linear,
-        compare: Some(wgpu::CompareFunction::LessEqual),
         ..wgpu::SamplerDescriptor::default()
     });
     let bound = Bindings::default()
@@ -100,8 +98,8 @@ pub(in super::super) fn shadow_filter(
         .texture(1, inputs.depth_m, false)
         .texture(2, inputs.normals, false)
         .uniform(4, inputs.light)
-        .texture(8, inputs.shadow, true)
-        .sampler(9, &sampler, wgpu::SamplerBindingType::Comparison)
+        .texture(8, inputs.shadow, false)
+        .sampler(9, &sampler, wgpu::SamplerBindingType::NonFiltering)
         .build(&gpu.device, "shadow filter");
     Fullscreen {
         label: "shadow filter",

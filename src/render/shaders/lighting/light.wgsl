@@ -2,8 +2,6 @@
 struct Light {
     // Irradiance in nine spherical-harmonic coefficients, already folded with the cosine.
     irradiance: array<vec4f, 9>,
-    // The environment's radiance along +x, -x, +y, -y, +z, -z.
-    environment: array<vec4f, 6>,
     constant_ambient: vec4f,
     background: vec4f,
     sun_towards: vec4f,
@@ -14,9 +12,17 @@ struct Light {
     shadow_weight: f32,
     reflection_weight: f32,
     sky_weight: f32,
+    // By which part of a turn the environment's map is seen from further right, and what its
+    // radiance is multiplied by.
+    environment_turn: f32,
+    environment_intensity: f32,
+    unused: vec2f,
     shadow_from_world: mat4x4f,
-    // Side of a shadow texel in metres; its inverse size; bias in light depth; unused.
-    shadow_texel: vec4f,
+    // Unit vectors to the shadow map's right and up; w: its texture coordinates a metre.
+    shadow_right: vec4f,
+    shadow_up: vec4f,
+    // Depth a metre; side of a texel in metres; tangent of the sun's radius; side of the map.
+    shadow_depth: vec4f,
 }
 
 @group(0) @binding(4) var<uniform> light: Light;
