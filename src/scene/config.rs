@@ -123,6 +123,14 @@ impl SceneConfig {
         })
     }
 
+    /// SHA-256 of the environment map that a variant reads from a file, if one does.
+    #[must_use]
+    pub fn environment_sha256(&self) -> Option<&str> {
+        self.lightings
+            .values()
+            .find_map(|lighting| lighting.environment.as_ref()?.file_sha256())
+    }
+
     /// The lighting variant of that name.
     ///
     /// # Errors

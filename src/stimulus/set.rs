@@ -41,7 +41,7 @@ pub struct StimulusSet {
     /// The conditions, in the file's order.
     pub conditions: Vec<SetCondition>,
     /// SHA-256 of this file's text, of the scenes' texts, in order, and of the files of
-    /// their models.
+    /// their models and environment maps.
     pub sha256: String,
 }
 
@@ -224,6 +224,7 @@ fn sha256(text: &str, scenes: &[SceneConfig]) -> Result<String, SceneError> {
     parts.extend(scenes.iter().map(|scene| scene.text.clone()));
     for scene in scenes {
         parts.extend(scene.geometry.sha256()?);
+        parts.extend(scene.environment_sha256().map(str::to_owned));
     }
     Ok(digest::sha256_hex(parts.join("\0").as_bytes()))
 }

@@ -167,3 +167,40 @@ fn a_spot_light_ends_at_its_cone() {
         assert_shows(&frame, pixel, expected, 2);
     }
 }
+
+/// The shaders' BRDF is the one whose energy `scene::brdf` is held to.
+#[test]
+fn sunlight_is_reflected_as_the_brdf_says() {
+    use crate::scene::brdf::Finish;
+    for (metallic, roughness) in [(0.0, 0.3), (1.0, 0.5), (0.4, 0.9)] {
+        let mut request = request("none");
+        request.lighting.ambient = Ambient::Constant(Vec3::ZERO);
+        let towards = Vec3::new(0.2, 0.8, -1.0).normalize();
+        request.lighting.sun = Some(Sun {
+            towards,
+            irradiance: Vec3::splat(1.2),
+            casts_shadows: false,
+        });
+        let material = Material {
+            albedo: [0.6, 0.4, 0.2],
+            specular: 0.04,
+            metallic,
+            roughness,
+            ..Material::default()
+        };
+        let finish = Finish {
+            albedo: Vec3::from(material.albedo),
+            specular: 0.04,
+            roughness,
+            metallic,
+        };
+        let frame = draw(&of_one_material(material, vec![floor()]), &request);
+        for x_m in [-1.5, -0.5, 0.0, 0.4, 1.2] {
+            let pixel = pixel_of(&request, Vec3::new(x_m, 0.0, 0.5));
+            let to_eye = -direction_at(&request, pixel);
+            let expected = finish.brdf(Vec3::Y, to_eye, towards) * 1.2 * towards.y;
+            // Albedo, specular, roughness and metalness are stored in eight bits.
+            assert_shows(&frame, pixel, expected, 3);
+        }
+    }
+}

@@ -68,7 +68,7 @@ fn from_file(
     let folder = source.path.parent().unwrap_or(source.path);
     let full = folder.join(path.get_ref());
     environment::file::load(&full)
-        .map(Environment::from_map)
+        .map(Environment::from_file)
         .map_err(|error| {
             let message = format!("{} {error}", full.display());
             source.error(path.span(), "environment.file", &message)

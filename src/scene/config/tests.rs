@@ -352,6 +352,8 @@ fn an_environment_file_is_read_from_beside_the_config() {
         .clone()
         .unwrap();
     assert_eq!(environment.radiance(Vec3::Y), Vec3::new(0.5, 1.0, 2.0));
+    let digest = crate::digest::sha256_hex(&bytes);
+    assert_eq!(environment.file_sha256(), Some(digest.as_str()));
     std::fs::write(folder.path().join("sky.hdr"), &bytes[..bytes.len() / 2]).unwrap();
     let error = SceneConfig::parse(&path, &text).unwrap_err().to_string();
     assert_parts(&error, &["scene.toml:", "environment.file", "damaged"]);

@@ -9,6 +9,7 @@ use image::codecs::openexr::OpenExrDecoder;
 use image::{DynamicImage, ImageDecoder, Limits};
 
 use super::RadianceMap;
+use crate::digest;
 
 /// Largest side of a map.
 const LARGEST_SIDE_PX: u32 = 16_384;
@@ -63,20 +64,33 @@ pub enum EnvironmentFileError {
     },
 }
 
+/// A map that was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadedMap {
+    /// The map.
+    pub map: RadianceMap,
+    /// SHA-256 of the file's bytes, hexadecimal.
+    pub sha256: String,
+}
+
 /// Reads a map. Negative components, which resampling filters leave in some files, become 0, with
 /// a warning in the log that says how many; a pixel that is not finite is an error.
 ///
 /// # Errors
 /// [`EnvironmentFileError`], without the file's name: the caller knows which config asked for it.
-pub fn load(path: &Path) -> Result<RadianceMap, EnvironmentFileError> {
-    let (map, negative) = decode(&std::fs::read(path)?)?;
+pub fn load(path: &Path) -> Result<LoadedMap, EnvironmentFileError> {
+    let bytes = std::fs::read(path)?;
+    let (map, negative) = decode(&bytes)?;
     if negative > 0 {
         tracing::warn!(
             "{}: {negative} pixels have a negative component, read as 0",
             path.display()
         );
     }
-    Ok(map)
+    Ok(LoadedMap {
+        map,
+        sha256: digest::sha256_hex(&bytes),
+    })
 }
 
 /// The map in a file's bytes, and how many of its pixels had a negative component.

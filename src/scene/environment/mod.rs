@@ -13,7 +13,7 @@ use std::sync::{Arc, OnceLock};
 
 use glam::Vec3;
 
-pub use file::EnvironmentFileError;
+pub use file::{EnvironmentFileError, LoadedMap};
 pub use irradiance::Irradiance;
 pub use map::RadianceMap;
 pub use sky::{Sky, Sunlight};
@@ -44,7 +44,8 @@ enum Source {
     /// Linear RGB radiance seen along +x, −x, +y, −y, +z, −z.
     Axes([Vec3; 6]),
     Sky(Sky),
-    Map,
+    /// With the SHA-256 of its file, if it came from one.
+    Map(Option<String>),
 }
 
 /// Rows of the maps made of six axes: half a texel is 0.7°.
@@ -80,10 +81,20 @@ impl Environment {
         Self::new(Source::Sky(sky))
     }
 
-    /// A map that was loaded or measured.
+    /// A map that was made or measured.
     #[must_use]
     pub fn from_map(map: RadianceMap) -> Self {
-        let environment = Self::new(Source::Map);
+        Self::holding(map, None)
+    }
+
+    /// A map that was read from a file.
+    #[must_use]
+    pub fn from_file(loaded: LoadedMap) -> Self {
+        Self::holding(loaded.map, Some(loaded.sha256))
+    }
+
+    fn holding(map: RadianceMap, sha256: Option<String>) -> Self {
+        let environment = Self::new(Source::Map(sha256));
         // The cell was made a line above: it is empty.
         let _ = environment.shared.map.set(map);
         environment
@@ -129,8 +140,18 @@ impl Environment {
             }
             Source::Sky(sky) => sky.map(),
             // Set when it was made; were it not, no light is the only thing that can be said.
-            Source::Map => RadianceMap::from_fn(1, |_| Vec3::ZERO),
+            Source::Map(_) => RadianceMap::from_fn(1, |_| Vec3::ZERO),
         })
+    }
+
+    /// SHA-256 of the file that the map came from: part of what a picture was made of, which the
+    /// scene config only names.
+    #[must_use]
+    pub fn file_sha256(&self) -> Option<&str> {
+        match &self.shared.source {
+            Source::Map(sha256) => sha256.as_deref(),
+            _ => None,
+        }
     }
 
     /// Linear RGB radiance that arrives from unit direction `towards`.
@@ -179,7 +200,7 @@ impl PartialEq for Environment {
     fn eq(&self, other: &Self) -> bool {
         let same_light = Arc::ptr_eq(&self.shared, &other.shared)
             || (self.shared.source == other.shared.source
-                && (self.shared.source != Source::Map || self.map() == other.map()));
+                && (!matches!(self.shared.source, Source::Map(_)) || self.map() == other.map()));
         same_light && self.about_y_rad == other.about_y_rad && self.intensity == other.intensity
     }
 }
