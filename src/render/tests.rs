@@ -12,6 +12,7 @@ use crate::scene::{
     TextureUse, Wrap,
 };
 
+mod display;
 mod effects;
 mod environments;
 mod light;

@@ -1,5 +1,7 @@
 //! What stands behind surfaces and in their mirrors, against the environment itself.
 
+use glam::Vec3;
+
 use super::*;
 use crate::scene::Environment;
 use crate::scene::brdf::EnvironmentTable;

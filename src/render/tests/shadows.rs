@@ -1,5 +1,7 @@
 //! Shadows against exact geometry: where rays to the sun meet a box, and where they do not.
 
+use glam::Vec3;
+
 use super::*;
 
 const ALBEDO: f32 = 0.8;
