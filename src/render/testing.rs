@@ -110,6 +110,17 @@ pub(super) fn draw(geometry: &Geometry, request: &FrameRequest) -> RenderedFrame
     renderer().render(&scene, request).unwrap()
 }
 
+/// Unit direction through a pixel's centre, in the world.
+pub(super) fn direction_at(request: &FrameRequest, (x, y): (u32, u32)) -> Vec3 {
+    let half = glam::Vec2::from(request.camera.half_extent_at_1m(request.aspect()));
+    let size = glam::Vec2::new(request.width_px as f32, request.height_px as f32);
+    let at = (glam::Vec2::new(x as f32, y as f32) + 0.5) / size;
+    let ndc = glam::Vec2::new(2.0 * at.x - 1.0, 1.0 - 2.0 * at.y);
+    (request.camera.view().inverse())
+        .transform_vector3((ndc * half).extend(-1.0))
+        .normalize()
+}
+
 /// The pixel a point is seen at.
 pub(super) fn pixel_of(request: &FrameRequest, point: Vec3) -> (u32, u32) {
     let clip =

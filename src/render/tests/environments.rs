@@ -3,19 +3,10 @@
 use glam::Vec3;
 
 use super::*;
+use crate::render::testing::direction_at;
 use crate::scene::Environment;
 use crate::scene::brdf::EnvironmentTable;
 use crate::scene::environment::Sky;
-
-fn direction_at(request: &FrameRequest, (x, y): (u32, u32)) -> Vec3 {
-    let half = glam::Vec2::from(request.camera.half_extent_at_1m(request.aspect()));
-    let size = glam::Vec2::new(request.width_px as f32, request.height_px as f32);
-    let at = (glam::Vec2::new(x as f32, y as f32) + 0.5) / size;
-    let ndc = glam::Vec2::new(2.0 * at.x - 1.0, 1.0 - 2.0 * at.y);
-    (request.camera.view().inverse())
-        .transform_vector3((ndc * half).extend(-1.0))
-        .normalize()
-}
 
 fn under(environment: Environment) -> FrameRequest {
     let mut request = request("none");

@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::*;
+use crate::render::testing::direction_at;
 
 const ALBEDO: f32 = 0.8;
 const IRRADIANCE: f32 = 2.5;
@@ -53,14 +54,8 @@ fn enters(origin: Vec3, along: Vec3, (low, high): (Vec3, Vec3)) -> Option<f32> {
 }
 
 /// The floor's point at a pixel's centre, unless something else is there.
-fn floor_at(request: &FrameRequest, (x, y): (u32, u32)) -> Option<Vec3> {
-    let half = glam::Vec2::from(request.camera.half_extent_at_1m(request.aspect()));
-    let size = glam::Vec2::new(request.width_px as f32, request.height_px as f32);
-    let at = (glam::Vec2::new(x as f32, y as f32) + 0.5) / size;
-    let ndc = glam::Vec2::new(2.0 * at.x - 1.0, 1.0 - 2.0 * at.y);
-    let along = (request.camera.view().inverse())
-        .transform_vector3((ndc * half).extend(-1.0))
-        .normalize();
+fn floor_at(request: &FrameRequest, pixel: (u32, u32)) -> Option<Vec3> {
+    let along = direction_at(request, pixel);
     let eye = request.camera.position_m;
     let distance = -eye.y / along.y;
     let point = eye + along * distance;
@@ -270,14 +265,8 @@ fn lit_surfaces_have_no_acne() {
 }
 
 /// Normal of the unit ball at a pixel, but for its outermost rim.
-fn ball_at(request: &FrameRequest, (x, y): (u32, u32)) -> Option<Vec3> {
-    let half = glam::Vec2::from(request.camera.half_extent_at_1m(request.aspect()));
-    let size = glam::Vec2::new(request.width_px as f32, request.height_px as f32);
-    let at = (glam::Vec2::new(x as f32, y as f32) + 0.5) / size;
-    let ndc = glam::Vec2::new(2.0 * at.x - 1.0, 1.0 - 2.0 * at.y);
-    let along = (request.camera.view().inverse())
-        .transform_vector3((ndc * half).extend(-1.0))
-        .normalize();
+fn ball_at(request: &FrameRequest, pixel: (u32, u32)) -> Option<Vec3> {
+    let along = direction_at(request, pixel);
     let to_centre = Vec3::Y - request.camera.position_m;
     let middle = to_centre.dot(along);
     let square = 0.97 - (to_centre.length_squared() - middle * middle);
