@@ -120,6 +120,7 @@ fn browser_visuals() -> Visuals {
     visuals.weak_text_color = Some(BROWSER_QUIET_INK);
     visuals.selection.bg_fill = Color32::from_gray(112);
     visuals.selection.stroke = Stroke::new(1.5, Color32::from_gray(250));
+    visuals.text_cursor.stroke = Stroke::new(2.0, BROWSER_INK);
     let widgets = &mut visuals.widgets;
     for (widget, fill, line) in [
         (&mut widgets.noninteractive, BROWSER_PAGE, 84),

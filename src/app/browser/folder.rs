@@ -40,7 +40,9 @@ impl Folder {
             });
         }
         // A set's folder stands beside its config and is named like it.
-        let beside = path.with_extension("toml");
+        let mut beside = path.as_os_str().to_owned();
+        beside.push(".toml");
+        let beside = PathBuf::from(beside);
         let set = config::read(&beside)
             .ok()
             .and_then(|text| StimulusSet::parse(&beside, &text).ok());

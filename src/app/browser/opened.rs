@@ -21,12 +21,12 @@ pub(super) struct Opened {
     pub gallery: Gallery,
     pub pair: Pair,
     plans: Option<Task<String>>,
-    buffers: Option<Buffers>,
+    /// Of the first and of the second image.
+    buffers: [Option<Buffers>; 2],
 }
 
 /// The targets of one image, on their way or there.
 struct Buffers {
-    shows_second: bool,
     task: Task<Vec<(Buffer, Picture)>>,
     textures: Vec<(Buffer, TextureHandle)>,
 }
@@ -43,7 +43,7 @@ impl Opened {
             gallery: Gallery::load(ctx, &folder),
             pair: Pair::load(ctx, folder.path.clone(), record),
             plans: None,
-            buffers: None,
+            buffers: [None, None],
             selected: 0,
             folder,
         })
@@ -64,7 +64,7 @@ impl Opened {
         self.selected = index;
         self.pair = Pair::load(ctx, self.folder.path.clone(), record);
         self.plans = None;
-        self.buffers = None;
+        self.buffers = [None, None];
     }
 
     /// What the selected pair is rendered from, where that is known.
@@ -125,9 +125,7 @@ impl Opened {
     }
 
     fn start_buffers(&mut self, ctx: &Context, shows_second: bool) {
-        if let Some(buffers) = &mut self.buffers
-            && buffers.shows_second == shows_second
-        {
+        if let Some(buffers) = &mut self.buffers[usize::from(shows_second)] {
             if buffers.task.poll()
                 && let Task::Done(pictures) = &buffers.task
             {
@@ -141,8 +139,7 @@ impl Opened {
         let (Some(set), Some(pair)) = (self.folder.set.clone(), self.rendered().cloned()) else {
             return;
         };
-        self.buffers = Some(Buffers {
-            shows_second,
+        self.buffers[usize::from(shows_second)] = Some(Buffers {
             task: Task::start(ctx, move || {
                 let technique = if shows_second {
                     &pair.second
@@ -198,7 +195,7 @@ impl Opened {
         shows_second: bool,
     ) -> Option<(u32, u32)> {
         self.start_buffers(ui.ctx(), shows_second);
-        let Some(buffers) = &self.buffers else {
+        let Some(buffers) = &self.buffers[usize::from(shows_second)] else {
             stage::note(ui, self.why_not_rendered(), false);
             return None;
         };
