@@ -70,8 +70,8 @@ impl Pen {
     #[must_use]
     pub fn bulge(mut self, height_m: f32, out_m: f32) -> Self {
         let start = self.here();
-        for i in 1..=8 {
-            let c = on_circle(-FRAC_PI_2 + TAU * 0.5 * i as f32 / 8.0);
+        for i in 1..=6 {
+            let c = on_circle(-FRAC_PI_2 + TAU * 0.5 * i as f32 / 6.0);
             self.points_m
                 .push(start + Vec2::new(out_m * c.x, height_m * 0.5 * (1.0 + c.y)));
         }
@@ -82,8 +82,8 @@ impl Pen {
     #[must_use]
     pub fn cavetto(mut self, out_m: f32, up_m: f32) -> Self {
         let start = self.here();
-        for i in 1..=6 {
-            let c = on_circle(FRAC_PI_2 * i as f32 / 6.0);
+        for i in 1..=4 {
+            let c = on_circle(FRAC_PI_2 * i as f32 / 4.0);
             self.points_m
                 .push(start + Vec2::new(out_m * (1.0 - c.x), up_m * c.y));
         }
@@ -94,8 +94,8 @@ impl Pen {
     #[must_use]
     pub fn ovolo(mut self, out_m: f32, up_m: f32) -> Self {
         let start = self.here();
-        for i in 1..=6 {
-            let c = on_circle(FRAC_PI_2 * i as f32 / 6.0);
+        for i in 1..=4 {
+            let c = on_circle(FRAC_PI_2 * i as f32 / 4.0);
             self.points_m
                 .push(start + Vec2::new(out_m * c.y, up_m * (1.0 - c.x)));
         }

@@ -27,7 +27,7 @@ pub const GENERATOR: Generator = Generator {
 };
 
 /// Size of the marching cubes, metres.
-const CELL_M: f32 = 0.0015;
+const CELL_M: f32 = 0.0017;
 
 fn generate(seed: u64) -> Geometry {
     let mut sculpture = Sculpture::new();

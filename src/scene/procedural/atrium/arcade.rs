@@ -252,7 +252,7 @@ fn archivolt(stone: &mut MeshBuilder, frame: &Frame, radius: f32) {
         .by(0.0, 0.03)
         .to(z - 0.01, 0.27)
         .profile()
-        .arch(stone, frame, radius, 40);
+        .arch(stone, frame, radius, 28);
 }
 
 /// Carved discs in the spandrels.
@@ -275,9 +275,9 @@ fn roundels(stuff: &mut Stuff, arch: &Frame, bay_m: f32, storey: &Storey) {
         .to(0.1, 0.09)
         .to(0.0, 0.11)
         .profile()
-        .lathe(&mut stuff.carved, &frame, 32);
+        .lathe(&mut stuff.carved, &frame, 20);
     // Petals of the rosette.
-    stuff.carved.sheet(96, 8, |s, t| {
+    stuff.carved.sheet(64, 5, |s, t| {
         let angle = s * std::f32::consts::TAU;
         let petal = libm::cosf(angle * 8.0);
         let r = 0.06 + 0.2 * t;

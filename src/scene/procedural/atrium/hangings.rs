@@ -169,7 +169,7 @@ impl Arch<'_> {
             path[0]
         };
         cloth.tint(Vec3::splat(0.9));
-        cloth.sheet(48, 48, |s, t| {
+        cloth.sheet(32, 24, |s, t| {
             let p = at(t);
             // Folds begin below the rail and deepen towards the hem.
             let hanging = smoothstep(0.02, 0.7, top - p.y);
@@ -237,7 +237,7 @@ impl Curtain {
 
     fn build(&self, stuff: &mut Stuff, color: usize) {
         let cloth = &mut stuff.cloth[color];
-        let columns = (self.folds * 10.0) as u32;
+        let columns = (self.folds * 7.0) as u32;
         // Metres of cloth to a metre of rod.
         let ease = 1.9;
         let uv = |s: f32, t: f32| Vec2::new(s * self.span_m * ease, t * self.drop_m);
@@ -251,7 +251,7 @@ impl Curtain {
         };
         let shade = 0.85 + 0.3 * self.noise.at(IVec3::new(1, 2, 3));
         let base = Vec3::splat(shade);
-        part(0.0, 0.93, 44, base);
+        part(0.0, 0.93, 22, base);
         part(0.93, 0.965, 2, Vec3::new(1.6, 1.5, 1.0));
         part(0.965, 1.0, 2, base * 0.8);
         cloth.tint(Vec3::ONE);

@@ -59,7 +59,7 @@ fn vault(plaster: &mut MeshBuilder, frame: &Frame, half_x: f32, half_z: f32, ris
             origin_m: frame.origin_m,
             axes: frame.axes * rotation(Vec3::Y, 0.5 * PI * quarter as f32),
         };
-        plaster.sheet_with_normals(16, 8, |s, t| {
+        plaster.sheet_with_normals(12, 6, |s, t| {
             let k = 2.0 * s - 1.0;
             let up = (1.0 - k * k).max(0.0).sqrt();
             // Outwards to inwards, so that the sheet faces down.

@@ -48,7 +48,7 @@ fn lantern(iron: &mut MeshBuilder, frame: &Frame) {
         // Links stand across each other by turns.
         let turn = if i % 2 == 0 { 0.0 } else { 0.25 * TAU };
         let link = frame.then(&Frame::turned(Vec3::Y * (-LINK_M * (i as f32 + 0.5)), turn));
-        iron.sheet(5, 10, |s, t| {
+        iron.sheet(4, 8, |s, t| {
             let (ring, c) = (on_circle(-t * TAU), on_circle(s * TAU) * 0.007);
             let p = Vec3::new(ring.x * (0.024 + c.x), ring.y * (0.046 + c.x), c.y);
             (link.point(p), on_circle(t))

@@ -58,15 +58,15 @@ fn base(stone: &mut MeshBuilder, r: f32) -> f32 {
         .by(0.0, 0.06 * r)
         .to(1.0 * r, plinth + 0.98 * r)
         .profile()
-        .lathe(stone, &Frame::WORLD, 48);
+        .lathe(stone, &Frame::WORLD, 32);
     plinth + 0.98 * r
 }
 
 /// The shaft swells and tapers: straight for a third, then a curve to 0.86 of the foot.
 fn shaft(stone: &mut MeshBuilder, r: f32, bottom: f32, top: f32, fluted: bool) {
     const FLUTES: f32 = 20.0;
-    let columns = if fluted { 160 } else { 48 };
-    stone.sheet(columns, 14, |s, t| {
+    let columns = if fluted { 100 } else { 36 };
+    stone.sheet(columns, 8, |s, t| {
         let angle = s * TAU;
         let taper = 1.0 - 0.14 * pow(((t - 0.3) / 0.7).max(0.0), 1.7);
         let depth = if fluted {
@@ -95,7 +95,7 @@ fn capital(stone: &mut MeshBuilder, r: f32, y: f32, height: f32) {
         .to(1.12 * r, y + 0.7 * height)
         .to(1.34 * r, y + bell)
         .profile()
-        .lathe(stone, &Frame::WORLD, 32);
+        .lathe(stone, &Frame::WORLD, 24);
     for i in 0..8 {
         let angle = FRAC_PI_4 * i as f32;
         leaf(
@@ -163,8 +163,8 @@ fn leaf(stone: &mut MeshBuilder, angle: f32, radius: f32, y: f32, height: f32, w
         ))
     };
     let uv = move |s: f32, t: f32| Vec2::new(s * width * 2.0, -t * height);
-    stone.sheet(6, 10, |s, t| (point(s, t, 0.05 * width), uv(s, t)));
-    stone.sheet(6, 10, |s, t| (point(1.0 - s, t, -0.03 * width), uv(s, t)));
+    stone.sheet(4, 8, |s, t| (point(s, t, 0.05 * width), uv(s, t)));
+    stone.sheet(2, 6, |s, t| (point(1.0 - s, t, -0.03 * width), uv(s, t)));
 }
 
 /// A scroll under a corner of the abacus.
@@ -185,7 +185,7 @@ fn volute(stone: &mut MeshBuilder, angle: f32, r: f32, y: f32, height: f32) {
         let turn = FRAC_PI_2 - k * 1.6 * TAU;
         (eye + on_circle(turn) * radius, 0.05 * r * (1.0 - 0.4 * k))
     };
-    stone.sheet(6, 30, |s, t| {
+    stone.sheet(5, 22, |s, t| {
         let (p, thick) = path(t);
         let (q, _) = path(t + 1e-3);
         let along = (q - p).normalize_or(Vec2::Y);
@@ -215,7 +215,7 @@ fn abacus(stone: &mut MeshBuilder, r: f32, y: f32, height: f32) {
         (1.06, 0.62),
         (1.06, 1.0),
     ];
-    stone.sheet(64, 8, |s, t| {
+    stone.sheet(48, 8, |s, t| {
         let k = t.clamp(0.0, 0.9999) * 4.0;
         let i = k as usize;
         let (a, b) = (rows[i], rows[i + 1]);
@@ -227,11 +227,11 @@ fn abacus(stone: &mut MeshBuilder, r: f32, y: f32, height: f32) {
         )
     });
     // Its top and under side, as far as they are seen.
-    stone.sheet(64, 1, |s, t| {
+    stone.sheet(48, 1, |s, t| {
         let p = outline(s * TAU) * lerp(0.93, 0.4, 1.0 - t);
         (Vec3::new(p.x, y, -p.y), Vec2::new(p.x, p.y))
     });
-    stone.sheet(64, 1, |s, t| {
+    stone.sheet(48, 1, |s, t| {
         let p = outline(s * TAU) * lerp(1.06, 0.2, t);
         (Vec3::new(p.x, y + height, -p.y), Vec2::new(p.x, p.y))
     });
@@ -269,6 +269,6 @@ pub(super) fn baluster(height_m: f32) -> MeshBuilder {
         .to(0.042, 0.85 * h)
         .to(0.075, 0.92 * h)
         .profile()
-        .lathe(&mut stone, &Frame::WORLD, 12);
+        .lathe(&mut stone, &Frame::WORLD, 8);
     stone
 }

@@ -12,7 +12,7 @@ use crate::scene::modelling::sculpture::{Part, Sculpture};
 const U: f32 = 0.0300;
 
 /// Smallest radius of a strand's end, in units of [`U`].
-const THINNEST: f32 = 0.036;
+const THINNEST: f32 = 0.042;
 
 /// Builds in the head's frame: x to its left, y up, z forwards, in units of [`U`].
 struct Carver<'a> {
