@@ -64,6 +64,7 @@ mod tests {
     use crate::protocol::Protocol;
     use crate::render::plan::{FramePlan, GeometryFacts};
     use crate::render::technique::Settings;
+    use crate::scene::ModelLights;
     use crate::stimulus::StimulusSet;
     use crate::stimulus::set::RenderedPair;
 
@@ -74,6 +75,10 @@ mod tests {
         emits: false,
         has_baked_occlusion: false,
         uncovered: Some(true),
+        lights: ModelLights {
+            suns: Vec::new(),
+            points: Vec::new(),
+        },
     };
 
     #[test]
@@ -137,7 +142,7 @@ mod tests {
         unpack(dir.path()).unwrap();
         let set = StimulusSet::load(&dir.path().join(STIMULI)).unwrap();
         let passes_of = |pair: &RenderedPair, technique: &Settings| -> Vec<&str> {
-            let plan = FramePlan::new(&set.request(pair, technique), FACTS);
+            let plan = FramePlan::new(&set.request(pair, technique), &FACTS);
             plan.passes.iter().map(|pass| pass.kind.name()).collect()
         };
         for (condition, pair) in set.rendered() {

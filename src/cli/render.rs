@@ -215,9 +215,9 @@ fn explain(set: &StimulusSet, only: Option<&str>, folder: &Path) -> Result<(), F
             }
         };
         let scene = &set.scenes[pair.scene];
-        let facts = match facts[pair.scene] {
+        let facts: &GeometryFacts = match &mut facts[pair.scene] {
             Some(known) => known,
-            None => *facts[pair.scene].insert(GeometryFacts::of(
+            unknown => unknown.insert(GeometryFacts::of(
                 &scene.geometry.load().map_err(Failure::bad_input)?,
             )),
         };

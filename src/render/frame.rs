@@ -4,7 +4,7 @@ use glam::{Mat4, Vec3};
 
 use super::plan::FramePlan;
 use super::technique::{Settings, TECHNIQUES};
-use crate::scene::{Camera, Lighting, PointLight, SceneConfig, Sun};
+use crate::scene::{Camera, Lighting, ModelLights, PointLight, SceneConfig, Sun};
 
 /// How finely normals and occlusion are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -70,8 +70,18 @@ impl FrameRequest {
             blur_plane_m: scene.occlusion.blur_plane_m,
             precision: Precision::Full,
             seed,
-            baked_occlusion: false,
+            baked_occlusion: scene.occlusion.baked,
             all_effects: false,
+        }
+    }
+
+    /// The request with the model's own lights among its lights, if its lighting asks for
+    /// them.
+    #[must_use]
+    pub(super) fn with_model_lights(&self, lights: &ModelLights) -> Self {
+        Self {
+            lighting: self.lighting.with_model_lights(lights),
+            ..self.clone()
         }
     }
 
@@ -159,7 +169,7 @@ impl FrameUniform {
     }
 
     /// The same scene seen by its directional light.
-    pub(super) fn from_light(mut self, light_from_world: Mat4) -> Self {
+    pub(super) fn seen_from_light(mut self, light_from_world: Mat4) -> Self {
         self.view_projection = light_from_world;
         self
     }

@@ -8,7 +8,7 @@ mod planner;
 mod tree;
 
 use super::frame::FrameRequest;
-use crate::scene::Geometry;
+use crate::scene::{Geometry, ModelLights};
 
 /// One kind of pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -91,7 +91,7 @@ pub struct LeftOut {
 }
 
 /// What the planner needs to know of the geometry.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct GeometryFacts {
     /// Number of triangles.
     pub triangles: usize,
@@ -103,6 +103,8 @@ pub struct GeometryFacts {
     pub has_baked_occlusion: bool,
     /// Whether any texel is left without a surface: known once the surfaces are drawn.
     pub uncovered: Option<bool>,
+    /// The model's own lights, for lightings that ask for them.
+    pub lights: ModelLights,
 }
 
 impl GeometryFacts {
@@ -118,6 +120,7 @@ impl GeometryFacts {
                 .iter()
                 .any(|material| material.occlusion_texture.is_some()),
             uncovered: None,
+            lights: geometry.lights.clone(),
         }
     }
 }
@@ -138,8 +141,8 @@ pub struct FramePlan {
 impl FramePlan {
     /// Plans a frame.
     #[must_use]
-    pub fn new(request: &FrameRequest, geometry: GeometryFacts) -> Self {
-        planner::plan(request, geometry)
+    pub fn new(request: &FrameRequest, geometry: &GeometryFacts) -> Self {
+        planner::plan(&request.with_model_lights(&geometry.lights), geometry)
     }
 
     /// Whether a pass of this kind runs.

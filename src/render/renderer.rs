@@ -137,14 +137,15 @@ impl<'a> View<'a> {
 
     fn draw(&mut self, request: &FrameRequest) -> Result<Shaded, RenderError> {
         let gpu: &'a Gpu = self.gpu;
+        let mut facts = self.scene.facts.clone();
+        let request = &request.with_model_lights(&facts.lights);
         let filled = request.filled_in();
-        let mut facts = self.scene.facts;
-        let mut plan = FramePlan::new(request, facts);
+        let mut plan = FramePlan::new(request, &facts);
         let (surfaces, is_new) = self.surfaces(&filled, &plan);
         let mut passes = as_drawn(&surfaces.records, is_new);
         if plan.has(PassKind::Skybox) && !request.all_effects {
             facts.uncovered = Some(surfaces.is_uncovered(gpu)?);
-            plan = FramePlan::new(request, facts);
+            plan = FramePlan::new(request, &facts);
         }
         self.sun_visibility(&filled, &plan, &mut passes);
         self.environment(&filled, &plan);

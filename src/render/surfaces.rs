@@ -158,7 +158,7 @@ impl SunVisibility {
         let shadow_view = ShadowView::new(sun.towards, bounds_m, &request.camera, request.aspect());
         let size = request.shaded_size();
         let frame = FrameUniform::new(request, size);
-        let from_light = frame.from_light(shadow_view.from_world);
+        let from_light = frame.seen_from_light(shadow_view.from_world);
         let from_light = uniform_of(&gpu.device, "shadow view", &[from_light]);
         let frame = uniform_of(&gpu.device, "frame", &[frame]);
         let light = LightUniform::new(request, Some(shadow_view));

@@ -127,11 +127,12 @@ impl Lighting {
     /// This lighting with the model's own lights in it, in the scene's units, where the
     /// variant asks for them.
     ///
-    /// A scene has one sun: the variant's own, or else the brightest of the model's.
+    /// A scene has one sun: the variant's own, or else the brightest of the model's. What
+    /// comes back asks for no model's lights any more.
     #[must_use]
     pub fn with_model_lights(&self, lights: &ModelLights) -> Self {
         let mut lit = self.clone();
-        let Some(factor) = self.model_lights else {
+        let Some(factor) = lit.model_lights.take() else {
             return lit;
         };
         let brightness = |sun: &Sun| sun.irradiance.element_sum();

@@ -199,15 +199,15 @@ impl StimulusSet {
         &self,
         pair: &RenderedPair,
         technique: &Settings,
-        facts: GeometryFacts,
+        facts: &GeometryFacts,
         ran: &[PassRecord],
     ) -> FramePlan {
         let facts = GeometryFacts {
             // Whether surfaces cover every pixel is known of a frame that was drawn.
             uncovered: (!ran.is_empty()).then(|| ran.iter().any(|pass| pass.pass == "skybox")),
-            ..facts
+            ..facts.clone()
         };
-        FramePlan::new(&self.request(pair, technique), facts)
+        FramePlan::new(&self.request(pair, technique), &facts)
     }
 
     /// Where the images lie unless somebody says otherwise: a folder beside the config, named

@@ -41,7 +41,7 @@ pub fn plans(
     let facts = GeometryFacts::of(&geometry(set, pair)?);
     let images = [(&pair.first, &record.first), (&pair.second, &record.second)];
     let plans = images.map(|(technique, image)| {
-        let plan = set.plan(pair, technique, facts, &image.passes);
+        let plan = set.plan(pair, technique, &facts, &image.passes);
         format!("{}\n{}", technique.label, plan.tree(&image.passes))
     });
     Ok(plans.join("\n"))

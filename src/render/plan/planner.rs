@@ -9,7 +9,7 @@ use crate::scene::{Ambient, Background, ToneMap};
 type Asked = Result<String, String>;
 
 /// Plans a frame.
-pub(super) fn plan(request: &FrameRequest, geometry: GeometryFacts) -> FramePlan {
+pub(super) fn plan(request: &FrameRequest, geometry: &GeometryFacts) -> FramePlan {
     let mut planner = Planner {
         request,
         geometry,
@@ -34,7 +34,7 @@ pub(super) fn plan(request: &FrameRequest, geometry: GeometryFacts) -> FramePlan
 
 struct Planner<'a> {
     request: &'a FrameRequest,
-    geometry: GeometryFacts,
+    geometry: &'a GeometryFacts,
     plan: FramePlan,
 }
 

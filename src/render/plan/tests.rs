@@ -1,5 +1,6 @@
 use super::*;
 use crate::render::testing::{brightest, request};
+use crate::scene::ModelLights;
 
 const FACTS: GeometryFacts = GeometryFacts {
     triangles: 12,
@@ -7,17 +8,26 @@ const FACTS: GeometryFacts = GeometryFacts {
     emits: true,
     has_baked_occlusion: true,
     uncovered: None,
+    lights: ModelLights {
+        suns: Vec::new(),
+        points: Vec::new(),
+    },
 };
 
 /// What most models are: no lamps, nothing baked, no normal maps.
 const PLAIN: GeometryFacts = GeometryFacts {
+    triangles: 12,
     has_normal_maps: false,
     emits: false,
     has_baked_occlusion: false,
-    ..FACTS
+    uncovered: None,
+    lights: ModelLights {
+        suns: Vec::new(),
+        points: Vec::new(),
+    },
 };
 
-fn kinds(request: &FrameRequest, facts: GeometryFacts) -> Vec<PassKind> {
+fn kinds(request: &FrameRequest, facts: &GeometryFacts) -> Vec<PassKind> {
     let plan = FramePlan::new(request, facts);
     plan.passes.iter().map(|pass| pass.kind).collect()
 }
@@ -29,9 +39,9 @@ fn reason(plan: &FramePlan, effect: &str) -> Option<String> {
 
 #[test]
 fn none_in_constant_light_is_two_passes_without_normals() {
-    let plan = FramePlan::new(&request("none"), PLAIN);
+    let plan = FramePlan::new(&request("none"), &PLAIN);
     use PassKind::{Geometry, Shade};
-    assert_eq!(kinds(&request("none"), PLAIN), [Geometry, Shade]);
+    assert_eq!(kinds(&request("none"), &PLAIN), [Geometry, Shade]);
     assert!(!plan.reads_normals && !plan.reads_emission);
     for effect in [
         "occlusion",
@@ -55,17 +65,17 @@ fn none_in_constant_light_is_two_passes_without_normals() {
 fn a_technique_brings_its_pass_and_its_blur() {
     use PassKind::{BlurColumns, BlurRows, Geometry, Occlusion, Shade};
     let passes = [Geometry, Occlusion, BlurRows, BlurColumns, Shade];
-    assert_eq!(kinds(&request("crytek24"), PLAIN), passes);
+    assert_eq!(kinds(&request("crytek24"), &PLAIN), passes);
     let mut unblurred = request("crytek24");
     unblurred.blur_radius_px = 0;
-    assert_eq!(kinds(&unblurred, PLAIN), [Geometry, Occlusion, Shade]);
+    assert_eq!(kinds(&unblurred, &PLAIN), [Geometry, Occlusion, Shade]);
 }
 
 #[test]
 fn everything_asked_for_is_everything_but_the_shortcut() {
     let mut request = brightest("blizzard24");
     request.baked_occlusion = true;
-    let plan = FramePlan::new(&request, FACTS);
+    let plan = FramePlan::new(&request, &FACTS);
     assert_eq!(plan.passes.len(), 13);
     assert_eq!(plan.left_out, []);
 }
@@ -76,9 +86,9 @@ fn all_effects_are_all_of_them() {
     for technique in ["none", "crytek24"] {
         let mut plain = request(technique);
         plain.all_effects = true;
-        let found = kinds(&plain, PLAIN);
-        assert_eq!(found, kinds(&brightest("blizzard24"), FACTS));
-        let plan = FramePlan::new(&plain, PLAIN);
+        let found = kinds(&plain, &PLAIN);
+        assert_eq!(found, kinds(&brightest("blizzard24"), &FACTS));
+        let plan = FramePlan::new(&plain, &PLAIN);
         let sun = plan.passes.iter().find(|pass| pass.kind == PassKind::Sun);
         assert!(sun.unwrap().because.contains("no directional light"));
     }
@@ -88,7 +98,7 @@ fn all_effects_are_all_of_them() {
 fn a_sun_without_shadows_draws_no_shadow_map() {
     let mut request = brightest("none");
     request.lighting.sun.as_mut().unwrap().casts_shadows = false;
-    let found = kinds(&request, PLAIN);
+    let found = kinds(&request, &PLAIN);
     assert!(!found.contains(&PassKind::ShadowMap) && !found.contains(&PassKind::ShadowFilter));
     assert!(found.contains(&PassKind::Sun));
 }
@@ -98,7 +108,7 @@ fn a_sun_without_shadows_draws_no_shadow_map() {
 fn a_covered_sky_is_left_out() {
     let sky = |uncovered| {
         let facts = GeometryFacts { uncovered, ..PLAIN };
-        kinds(&brightest("none"), facts).contains(&PassKind::Skybox)
+        kinds(&brightest("none"), &facts).contains(&PassKind::Skybox)
     };
     assert!(sky(None) && sky(Some(true)) && !sky(Some(false)));
 }
@@ -117,10 +127,10 @@ fn any_other_light_keeps_radiance() {
     for change in change {
         let mut request = request("none");
         change(&mut request);
-        let found = kinds(&request, PLAIN);
+        let found = kinds(&request, &PLAIN);
         assert!(found.contains(&PassKind::Ambient) && found.contains(&PassKind::Output));
     }
-    assert!(kinds(&request("none"), FACTS).contains(&PassKind::Emission));
+    assert!(kinds(&request("none"), &FACTS).contains(&PassKind::Emission));
 }
 
 #[test]
@@ -131,9 +141,12 @@ fn baked_occlusion_asks_for_the_emission_target_and_no_more() {
     };
     let mut asking = request("none");
     asking.baked_occlusion = true;
-    assert!(FramePlan::new(&asking, baked).reads_emission);
-    assert!(!FramePlan::new(&request("none"), baked).reads_emission);
-    assert_eq!(kinds(&asking, baked), [PassKind::Geometry, PassKind::Shade]);
+    assert!(FramePlan::new(&asking, &baked).reads_emission);
+    assert!(!FramePlan::new(&request("none"), &baked).reads_emission);
+    assert_eq!(
+        kinds(&asking, &baked),
+        [PassKind::Geometry, PassKind::Shade]
+    );
 }
 
 /// Everything read was written before it is read.
@@ -147,7 +160,7 @@ fn passes_run_after_what_they_read() {
     ] {
         for facts in [PLAIN, FACTS] {
             let mut written = vec!["triangles", "textures"];
-            for pass in FramePlan::new(&request, facts).passes {
+            for pass in FramePlan::new(&request, &facts).passes {
                 for input in &pass.reads {
                     assert!(
                         written.contains(input),
@@ -163,7 +176,7 @@ fn passes_run_after_what_they_read() {
 
 #[test]
 fn the_tree_names_each_pass_its_cost_and_each_effect_left_out() {
-    let plan = FramePlan::new(&request("none"), PLAIN);
+    let plan = FramePlan::new(&request("none"), &PLAIN);
     let ran = [crate::stimulus::manifest::PassRecord {
         pass: String::from("shade"),
         gpu_ms: Some(12.345),
@@ -181,4 +194,20 @@ fn the_tree_names_each_pass_its_cost_and_each_effect_left_out() {
         "{text}"
     );
     assert!(!plan.to_string().contains("ms"));
+}
+
+/// A model's lamp is planned where the lighting asks for it, and dark where it does not.
+#[test]
+fn a_models_lights_shine_when_asked_for() {
+    let facts = GeometryFacts {
+        lights: ModelLights {
+            suns: Vec::new(),
+            points: brightest("none").lighting.points,
+        },
+        ..PLAIN
+    };
+    let mut asking = request("none");
+    assert!(!kinds(&asking, &facts).contains(&PassKind::PointLights));
+    asking.lighting.model_lights = Some(0.01);
+    assert!(kinds(&asking, &facts).contains(&PassKind::PointLights));
 }
