@@ -61,7 +61,11 @@ impl Stage {
         let scale = ui.ctx().pixels_per_point();
         let stage_px = rect * scale;
         let fitted = View::fit(image_px, stage_px.size());
-        let view = self.view.filter(|view| !view.fits).unwrap_or(fitted);
+        let mut view = self.view.filter(|view| !view.fits).unwrap_or(fitted);
+        if view.fits || view.zoom == 1.0 {
+            // Else the wheel would magnify about a point up to half a pixel beside the pointer.
+            view = view.on_whole_pixels(stage_px);
+        }
         let view = moved(ui, &response, view, image_px, stage_px, scale);
         self.view = Some(view);
         let place = view.place_px(image_px, stage_px) / scale;

@@ -63,6 +63,16 @@ impl View {
         }
     }
 
+    /// Moved by under a pixel, so that the image's corner stands on a whole pixel of the screen.
+    #[must_use]
+    pub fn on_whole_pixels(self, stage_px: Rect) -> Self {
+        let corner = stage_px.center() - self.centre_px.to_vec2() * self.zoom;
+        Self {
+            centre_px: self.centre_px + (corner - corner.round()) / self.zoom,
+            ..self
+        }
+    }
+
     /// Where the image stands on a stage, in screen pixels; its corner on a whole one, so that
     /// at whole magnifications every image pixel covers whole screen pixels.
     #[must_use]

@@ -54,22 +54,27 @@ impl Noise {
     }
 
     fn slope(self, lattice: IVec3, offset: Vec3) -> f32 {
-        // The twelve edge directions of a cube, four of them twice (Perlin 2002).
-        let (x, y, z) = (offset.x, offset.y, offset.z);
-        match self.hash(lattice) & 15 {
-            0 | 12 => x + y,
-            1 | 13 => y - x,
-            2 => x - y,
-            3 => -x - y,
-            4 => x + z,
-            5 => z - x,
-            6 => x - z,
-            7 => -x - z,
-            8 => y + z,
-            9 | 14 => z - y,
-            10 => y - z,
-            _ => -y - z,
-        }
+        // The twelve edge directions of a cube, four of them twice (Perlin 2002). From a table,
+        // because a branch taken at random is the dearest part of noise.
+        const DIRECTIONS: [Vec3; 16] = [
+            Vec3::new(1.0, 1.0, 0.0),
+            Vec3::new(-1.0, 1.0, 0.0),
+            Vec3::new(1.0, -1.0, 0.0),
+            Vec3::new(-1.0, -1.0, 0.0),
+            Vec3::new(1.0, 0.0, 1.0),
+            Vec3::new(-1.0, 0.0, 1.0),
+            Vec3::new(1.0, 0.0, -1.0),
+            Vec3::new(-1.0, 0.0, -1.0),
+            Vec3::new(0.0, 1.0, 1.0),
+            Vec3::new(0.0, -1.0, 1.0),
+            Vec3::new(0.0, 1.0, -1.0),
+            Vec3::new(0.0, -1.0, -1.0),
+            Vec3::new(1.0, 1.0, 0.0),
+            Vec3::new(-1.0, 1.0, 0.0),
+            Vec3::new(0.0, -1.0, 1.0),
+            Vec3::new(0.0, -1.0, -1.0),
+        ];
+        DIRECTIONS[(self.hash(lattice) & 15) as usize].dot(offset)
     }
 
     /// Gradient noise in three dimensions, about −1 to 1, features of size 1.
@@ -113,22 +118,25 @@ impl Noise {
         let floor = p.floor();
         let (base, f) = (floor.as_ivec2(), p - floor);
         let w = fade(f.extend(0.0));
+        // Wrapped once; a neighbour is at most one further.
+        let wrap = |l: i32, cells: i32| if l == cells { 0 } else { l };
+        let base = IVec2::new(base.x.rem_euclid(cells.x), base.y.rem_euclid(cells.y));
         let corner = |x: i32, y: i32| {
             let step = IVec2::new(x, y);
             let l = base + step;
-            let wrapped = IVec3::new(l.x.rem_euclid(cells.x), l.y.rem_euclid(cells.y), 0);
-            let d = f - step.as_vec2();
+            let wrapped = IVec3::new(wrap(l.x, cells.x), wrap(l.y, cells.y), 0);
             // Eight directions of about one length.
-            match self.hash(wrapped) & 7 {
-                0 => d.x + d.y,
-                1 => d.x - d.y,
-                2 => d.y - d.x,
-                3 => -d.x - d.y,
-                4 => 1.4 * d.x,
-                5 => -1.4 * d.x,
-                6 => 1.4 * d.y,
-                _ => -1.4 * d.y,
-            }
+            const DIRECTIONS: [Vec2; 8] = [
+                Vec2::new(1.0, 1.0),
+                Vec2::new(1.0, -1.0),
+                Vec2::new(-1.0, 1.0),
+                Vec2::new(-1.0, -1.0),
+                Vec2::new(1.4, 0.0),
+                Vec2::new(-1.4, 0.0),
+                Vec2::new(0.0, 1.4),
+                Vec2::new(0.0, -1.4),
+            ];
+            DIRECTIONS[(self.hash(wrapped) & 7) as usize].dot(f - step.as_vec2())
         };
         let along_x = |y| {
             let (a, b) = (corner(0, y), corner(1, y));

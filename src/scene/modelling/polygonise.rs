@@ -125,6 +125,22 @@ impl<'a> Grid<'a> {
         }
     }
 
+    /// Whether each corner of a cell is inside.
+    fn inside(&self, cell: IVec3) -> [bool; 8] {
+        let inner = cell.rem_euclid(IVec3::splat(SIDE));
+        if inner.max_element() + 1 < SIDE
+            && let Some((Block::Sampled { distances_m, .. }, within)) = self.block_of(cell)
+        {
+            // All eight in one block: most cells.
+            let side = SIDE.cast_unsigned() as usize;
+            return std::array::from_fn(|i| {
+                let step = (i & 1) + side * ((i >> 1 & 1) + side * (i >> 2 & 1));
+                distances_m[within + step] < 0.0
+            });
+        }
+        std::array::from_fn(|i| self.at(cell + corner(i)) < 0.0)
+    }
+
     /// The parts to look at near a lattice point; `None` for all of them.
     fn near(&self, lattice: IVec3) -> Option<&[u16]> {
         match self.block_of(lattice) {
@@ -181,7 +197,7 @@ impl Outline {
     }
 
     fn cell(&mut self, grid: &Grid, cell: IVec3) {
-        let inside: [bool; 8] = std::array::from_fn(|i| grid.at(cell + corner(i)) < 0.0);
+        let inside = grid.inside(cell);
         if inside == [false; 8] || inside == [true; 8] {
             return;
         }

@@ -151,7 +151,7 @@ mod tests {
                 println!("{name}: {} {}", mesh.name, mesh.indices.len() / 3);
             }
             assert!(
-                (200_000..=700_000).contains(&triangles),
+                (200_000..=1_000_000).contains(&triangles),
                 "{name}: {triangles}"
             );
         }

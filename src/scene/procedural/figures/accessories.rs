@@ -47,8 +47,8 @@ pub(super) fn over(
         hang(&mut leather, &strap, &bag);
     }
     vec![
-        Layer::dyed("leather", Stuff::Leather, leather, 0.0048, build.belts),
-        Layer::dyed("buckles", Stuff::Metal, metal, 0.0026, 0xb8a06a),
+        Layer::dyed("leather", Stuff::Leather, leather, 0.0054, build.belts),
+        Layer::dyed("buckles", Stuff::Metal, metal, 0.0028, 0xb8a06a),
     ]
 }
 

@@ -19,7 +19,7 @@ pub(super) fn layer(pose: &Pose, build: &Build, noise: Noise) -> Layer {
         name: "boots",
         stuff: Stuff::Leather,
         sculpture: s,
-        cell_m: 0.0046,
+        cell_m: 0.0051,
         paint: Box::new(move |p, _| leather.lerp(sole, smoothstep(0.032, 0.027, p.y))),
     }
 }

@@ -65,7 +65,7 @@ pub(super) fn layer(pose: &Pose, build: &Build, noise: Noise) -> Layer {
         name: "hair",
         stuff: Stuff::Hair,
         sculpture: s,
-        cell_m: 0.0032,
+        cell_m: 0.0035,
         paint: Box::new(move |p, _| {
             let tone = noise.gradient(Vec3::new(p.x * 160.0, p.y * 26.0, p.z * 60.0));
             color * (1.0 + 0.3 * tone + 0.25 * smoothstep(0.0, 0.6, tone))

@@ -18,7 +18,7 @@ pub(super) fn layers(pose: &Pose, build: &Build) -> Vec<Layer> {
     } else {
         (Stuff::Leather, 0x4d3a2b)
     };
-    vec![Layer::dyed("hands", stuff, s, 0.0030, color)]
+    vec![Layer::dyed("hands", stuff, s, 0.0033, color)]
 }
 
 fn hand(s: &mut Sculpture, pose: &Pose, build: &Build, side: usize) {

@@ -69,7 +69,7 @@ pub(super) fn layer(pose: &Pose, build: &Build, noise: Noise) -> Layer {
         name: "head",
         stuff: Stuff::Skin,
         sculpture: s,
-        cell_m: 0.0026,
+        cell_m: 0.0028,
         paint: paint(pose.head, *build, noise),
     }
 }

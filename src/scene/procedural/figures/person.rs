@@ -128,10 +128,10 @@ impl Person {
             "trousers",
             Stuff::Cloth,
             trousers,
-            0.0058,
+            0.0064,
             build.trousers,
         ));
-        layers.push(Layer::dyed("jacket", Stuff::Cloth, top, 0.0050, build.top));
+        layers.push(Layer::dyed("jacket", Stuff::Cloth, top, 0.0055, build.top));
         layers.push(boots::layer(pose, build, noise));
         layers.extend(hands::layers(pose, build));
         layers.push(head::layer(pose, build, noise));
