@@ -89,10 +89,11 @@ impl View<'_> {
             (depth.values[texel] < far_m).then_some(direction)
         };
         let exposure = request.lighting.exposure_ev.exp2();
-        let light = |texel: usize| {
+        // Of four half floats a texel.
+        let color = |halves: &[u8], texel: usize, scale: f32| {
             let channel = |c: usize| {
                 let at = 8 * texel + 2 * c;
-                f16::from_le_bytes([radiance[at], radiance[at + 1]]).to_f32() * exposure
+                f16::from_le_bytes([halves[at], halves[at + 1]]).to_f32() * scale
             };
             [0, 1, 2].map(|c| byte(srgb::encode(channel(c).clamp(0.0, 1.0))))
         };
@@ -100,9 +101,7 @@ impl View<'_> {
         Ok(vec![
             (
                 Buffer::Albedo,
-                sampled(&request, |t| {
-                    [albedo[4 * t], albedo[4 * t + 1], albedo[4 * t + 2]]
-                }),
+                sampled(&request, |t| color(&albedo, t, 1.0)),
             ),
             (
                 Buffer::Normals,
@@ -115,7 +114,10 @@ impl View<'_> {
                 sampled(&request, |t| [byte(depth_scale.grey(depth.values[t])); 3]),
             ),
             (Buffer::Occlusion, grey_picture(&occlusion)),
-            (Buffer::Light, sampled(&request, light)),
+            (
+                Buffer::Light,
+                sampled(&request, |t| color(&radiance, t, exposure)),
+            ),
             (Buffer::Final, shaded.picture),
         ])
     }

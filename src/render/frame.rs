@@ -171,6 +171,9 @@ impl FrameUniform {
     /// The same scene seen by its directional light.
     pub(super) fn seen_from_light(mut self, light_from_world: Mat4) -> Self {
         self.view_projection = light_from_world;
+        self.size_px = [SHADOW_SIZE_PX as f32; 2];
+        // Light comes in parallel: nothing is behind its eye.
+        self.near_m = 0.0;
         self
     }
 }
@@ -186,7 +189,7 @@ pub(super) struct Formats {
 }
 
 impl Formats {
-    pub(super) const ALBEDO: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+    pub(super) const ALBEDO: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
     pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
     pub(super) const DEPTH_TEST: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
     pub(super) const RADIANCE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;

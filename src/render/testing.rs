@@ -112,9 +112,14 @@ pub(super) fn draw(geometry: &Geometry, request: &FrameRequest) -> RenderedFrame
 
 /// Unit direction through a pixel's centre, in the world.
 pub(super) fn direction_at(request: &FrameRequest, (x, y): (u32, u32)) -> Vec3 {
+    direction_through(request, glam::Vec2::new(x as f32, y as f32) + 0.5)
+}
+
+/// Unit direction through a point of the picture, pixels from its upper left corner.
+pub(super) fn direction_through(request: &FrameRequest, at_px: glam::Vec2) -> Vec3 {
     let half = glam::Vec2::from(request.camera.half_extent_at_1m(request.aspect()));
     let size = glam::Vec2::new(request.width_px as f32, request.height_px as f32);
-    let at = (glam::Vec2::new(x as f32, y as f32) + 0.5) / size;
+    let at = at_px / size;
     let ndc = glam::Vec2::new(2.0 * at.x - 1.0, 1.0 - 2.0 * at.y);
     (request.camera.view().inverse())
         .transform_vector3((ndc * half).extend(-1.0))

@@ -1,9 +1,9 @@
 //! Shadows against exact geometry: where rays to the sun meet a box, and where they do not.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use super::*;
-use crate::render::testing::direction_at;
+use crate::render::testing::{direction_at, direction_through};
 
 const ALBEDO: f32 = 0.8;
 const IRRADIANCE: f32 = 2.5;
@@ -53,13 +53,18 @@ fn enters(origin: Vec3, along: Vec3, (low, high): (Vec3, Vec3)) -> Option<f32> {
     (near <= far).then_some(near)
 }
 
-/// The floor's point at a pixel's centre, unless something else is there.
+/// The floor's point at a pixel's centre, unless something else is there or within the grid
+/// that edges are drawn on, 1/16 of a pixel.
 fn floor_at(request: &FrameRequest, pixel: (u32, u32)) -> Option<Vec3> {
     let along = direction_at(request, pixel);
     let eye = request.camera.position_m;
     let distance = -eye.y / along.y;
     let point = eye + along * distance;
-    let hidden = enters(eye, along, BOX).is_some_and(|box_at| box_at < distance);
+    let centre_px = Vec2::new(pixel.0 as f32, pixel.1 as f32) + 0.5;
+    let hidden = [Vec2::ZERO, Vec2::X, Vec2::NEG_X, Vec2::Y, Vec2::NEG_Y]
+        .map(|step| direction_through(request, centre_px + step / 16.0))
+        .iter()
+        .any(|&along| enters(eye, along, BOX).is_some_and(|box_at| box_at < distance));
     (distance > 0.0 && !hidden && point.abs().max_element() < 5.5).then_some(point)
 }
 

@@ -39,6 +39,44 @@ fn an_empty_scene_is_its_background() {
     }
 }
 
+/// Corners move to a grid of 1/16 pixel, the coarsest that adapters rasterise on, so that finer
+/// ones draw the same: what lies within a step of the grid is one picture, what lies beyond is not.
+#[test]
+fn corners_lie_on_a_grid_that_every_adapter_has() {
+    let mut request = request("none");
+    request.camera.position_m = Vec3::new(0.0, 0.0, 3.0);
+    request.camera.target_m = Vec3::ZERO;
+    request.supersampling = 4;
+    let half_m = request.camera.half_extent_at_1m(request.aspect()).1 * 3.0;
+    let texel_m = 2.0 * half_m / 480.0;
+    // A slanted edge, so that a shift of any size would move it over some sample.
+    let at = |step: f32| {
+        let mut shape = quad(
+            "sheet",
+            Vec3::ZERO,
+            Vec3::X * 200.0 * texel_m,
+            Vec3::Y * texel_m,
+        );
+        let corners_px = [
+            [-170.0, -90.0],
+            [60.0, -171.0],
+            [150.0, 120.0],
+            [-80.0, 190.0],
+        ];
+        for (vertex, [x, y]) in shape.vertices.iter_mut().zip(corners_px) {
+            vertex.position_m = [(x + step) * texel_m, (y + step) * texel_m, 0.0];
+        }
+        draw(&of_one_material(matte([0.2; 3]), vec![shape]), &request).picture
+    };
+    let on_it = at(0.0);
+    for within in [-0.02, 0.02] {
+        assert_eq!(at(within), on_it, "{within} of a texel");
+    }
+    for beyond in [-0.05, 0.05] {
+        assert_ne!(at(beyond), on_it, "{beyond} of a texel");
+    }
+}
+
 /// The supersampled image of a smooth scene is the plain one, up to its edges.
 #[test]
 fn supersampling_changes_edges_only() {

@@ -1,5 +1,6 @@
 // A corner of a triangle, and what becomes of it over the triangle.
 //!use frame
+//!use grid
 //!use material
 struct Corner {
     @location(0) position_m: vec3f,
@@ -22,7 +23,7 @@ struct Surface {
 fn vs_geometry(corner: Corner) -> Surface {
     var surface: Surface;
     let world = vec4f(corner.position_m, 1.0);
-    surface.position = frame.view_projection * world;
+    surface.position = on_grid(frame.view_projection * world);
     surface.normal = corner.normal;
     surface.tangent = corner.tangent;
     surface.uv = corner.uv;

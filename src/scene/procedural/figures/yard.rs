@@ -94,6 +94,8 @@ fn crate_box(
     draw: &mut impl FnMut(f32, f32) -> f32,
 ) {
     const PLANKS: u32 = 5;
+    /// Thickness.
+    const BATTEN_M: f32 = 0.032;
     let half = 0.5 * size;
     for turn in 0..4 {
         let side = frame.then(&Frame::turned(
@@ -113,21 +115,23 @@ fn crate_box(
                 0.004,
             );
         }
+        // Two of the sides stand between the other two: faces in one place would flicker.
+        let reach = half - if turn % 2 == 0 { 0.0 } else { BATTEN_M };
         let mut batten = |low: [f32; 2], high: [f32; 2]| {
             wood.tint(Vec3::splat(draw(0.85, 1.05)));
             block(
                 wood,
                 &side,
-                Vec3::new(low[0], low[1], half - 0.032),
+                Vec3::new(low[0], low[1], half - BATTEN_M),
                 Vec3::new(high[0], high[1], half),
                 0.005,
             );
         };
         let b = 0.085 * size / 0.7;
-        batten([-half, -half], [half, -half + b]);
-        batten([-half, half - b], [half, half]);
-        batten([-half, -half + b], [-half + b, half - b]);
-        batten([half - b, -half + b], [half, half - b]);
+        batten([-reach, -half], [reach, -half + b]);
+        batten([-reach, half - b], [reach, half]);
+        batten([-reach, -half + b], [-half + b, half - b]);
+        batten([half - b, -half + b], [reach, half - b]);
     }
     // Dark inside, so that no light shows between the planks.
     wood.tint(Vec3::splat(0.15));
