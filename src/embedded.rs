@@ -15,6 +15,10 @@ pub const FILES: &[(&str, &str)] = &[
         include_str!("../stimuli/thesis-2010.toml"),
     ),
     (
+        "stimuli/validity.toml",
+        include_str!("../stimuli/validity.toml"),
+    ),
+    (
         "stimuli/scenes/atrium.toml",
         include_str!("../stimuli/scenes/atrium.toml"),
     ),
@@ -135,16 +139,29 @@ mod tests {
         assert_eq!(found, expected);
     }
 
-    /// Each lighting brings its passes, each technique its own, and nothing else runs.
+    fn passes_of(
+        set: &StimulusSet,
+        pair: &RenderedPair,
+        technique: &Settings,
+    ) -> Vec<&'static str> {
+        let plan = FramePlan::new(&set.request(pair, technique), &FACTS);
+        plan.passes.iter().map(|pass| pass.kind.name()).collect()
+    }
+
+    /// Each lighting brings its passes, each technique its own, and nothing else runs: in every
+    /// scene at every level of validity.
     #[test]
     fn every_picture_runs_what_it_calls_for() {
         let dir = tempfile::tempdir().unwrap();
         unpack(dir.path()).unwrap();
-        let set = StimulusSet::load(&dir.path().join(STIMULI)).unwrap();
-        let passes_of = |pair: &RenderedPair, technique: &Settings| -> Vec<&str> {
-            let plan = FramePlan::new(&set.request(pair, technique), &FACTS);
-            plan.passes.iter().map(|pass| pass.kind.name()).collect()
-        };
+        for (name, pictures) in [(STIMULI, 7), ("stimuli/validity.toml", 9)] {
+            let set = StimulusSet::load(&dir.path().join(name)).unwrap();
+            assert_eq!(set.rendered().count(), pictures);
+            hold_plans(&set);
+        }
+    }
+
+    fn hold_plans(set: &StimulusSet) {
         for (condition, pair) in set.rendered() {
             for technique in [&pair.first, &pair.second] {
                 let mut expected = vec!["geometry"];
@@ -159,14 +176,20 @@ mod tests {
                     "moderate" => vec!["ambient", "skybox", "output"],
                     _ => vec!["ambient", "sun", "skybox", "output"],
                 });
-                let found = passes_of(pair, technique);
+                let found = passes_of(set, pair, technique);
                 assert_eq!(found, expected, "{} {}", condition.id, technique.label);
             }
         }
-        // The dragon runs at most half the passes of the atrium in full light.
+    }
+
+    #[test]
+    fn the_dragon_runs_at_most_half_the_passes_of_the_atrium_in_full_light() {
+        let dir = tempfile::tempdir().unwrap();
+        unpack(dir.path()).unwrap();
+        let set = StimulusSet::load(&dir.path().join(STIMULI)).unwrap();
         let of = |id: &str| set.rendered().find(|(c, _)| c.id == id).unwrap().1;
-        let dragon = passes_of(of("dragon-low"), &of("dragon-low").second);
-        let atrium = passes_of(of("sponza-high-h2"), &of("sponza-high-h2").second);
+        let dragon = passes_of(&set, of("dragon-low"), &of("dragon-low").second);
+        let atrium = passes_of(&set, of("sponza-high-h2"), &of("sponza-high-h2").second);
         assert!(2 * dragon.len() <= atrium.len(), "{dragon:?} {atrium:?}");
     }
 
