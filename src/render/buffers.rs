@@ -89,14 +89,6 @@ impl View<'_> {
             (depth.values[texel] < far_m).then_some(direction)
         };
         let exposure = request.lighting.exposure_ev.exp2();
-        // Of four half floats a texel.
-        let color = |halves: &[u8], texel: usize, scale: f32| {
-            let channel = |c: usize| {
-                let at = 8 * texel + 2 * c;
-                f16::from_le_bytes([halves[at], halves[at + 1]]).to_f32() * scale
-            };
-            [0, 1, 2].map(|c| byte(srgb::encode(channel(c).clamp(0.0, 1.0))))
-        };
         let depth_scale = DepthScale::of(&depth, far_m);
         Ok(vec![
             (
@@ -121,6 +113,15 @@ impl View<'_> {
             (Buffer::Final, shaded.picture),
         ])
     }
+}
+
+/// A texel of four half floats, linear, times `scale`, as sRGB.
+fn color(halves: &[u8], texel: usize, scale: f32) -> [u8; 3] {
+    let channel = |c: usize| {
+        let at = 8 * texel + 2 * c;
+        f16::from_le_bytes([halves[at], halves[at + 1]]).to_f32() * scale
+    };
+    [0, 1, 2].map(|c| byte(srgb::encode(channel(c).clamp(0.0, 1.0))))
 }
 
 /// A picture of the sample of each pixel that its occlusion belongs to.

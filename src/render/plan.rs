@@ -5,6 +5,7 @@
 //! weight nought, to show that it changes nothing.
 
 mod planner;
+mod rules;
 mod tree;
 
 use super::frame::FrameRequest;

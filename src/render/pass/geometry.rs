@@ -22,6 +22,40 @@ pub(in super::super) struct GeometryTargets<'a> {
     pub depth_test: &'a wgpu::TextureView,
 }
 
+impl GeometryTargets<'_> {
+    /// The colour attachments that are there, in the order of the shader's outputs. No surface
+    /// is as far as can be.
+    fn attachments(&self, far_m: f32) -> Vec<Option<wgpu::RenderPassColorAttachment<'_>>> {
+        let nothing = f64::from(far_m);
+        let no_surface = wgpu::Color {
+            r: nothing,
+            g: nothing,
+            b: nothing,
+            a: nothing,
+        };
+        [
+            Some(cleared(self.albedo, wgpu::Color::BLACK)),
+            Some(cleared(self.depth_m, no_surface)),
+            self.normals
+                .map(|view| cleared(view, wgpu::Color::TRANSPARENT)),
+            self.emission.map(|view| cleared(view, wgpu::Color::BLACK)),
+        ]
+        .into_iter()
+        .filter(Option::is_some)
+        .collect()
+    }
+
+    /// The shader's entry point that writes them.
+    fn fragment(&self) -> &'static str {
+        match (self.normals, self.emission) {
+            (None, None) => "fs_flat",
+            (None, Some(_)) => "fs_flat_emitting",
+            (Some(_), None) => "fs_full",
+            (Some(_), Some(_)) => "fs_full_emitting",
+        }
+    }
+}
+
 /// The frame's numbers, shader parts and materials for the geometry pass.
 pub(in super::super) struct GeometryInputs<'a> {
     pub frame: &'a wgpu::Buffer,
@@ -41,37 +75,12 @@ pub(in super::super) fn geometry(
     let frame = Bindings::default()
         .uniform(0, inputs.frame)
         .build(&gpu.device, "geometry");
-    let nothing = f64::from(inputs.far_m);
-    let no_surface = wgpu::Color {
-        r: nothing,
-        g: nothing,
-        b: nothing,
-        a: nothing,
-    };
-    let attachments: Vec<_> = [
-        Some(cleared(targets.albedo, wgpu::Color::BLACK)),
-        Some(cleared(targets.depth_m, no_surface)),
-        targets
-            .normals
-            .map(|view| cleared(view, wgpu::Color::TRANSPARENT)),
-        targets
-            .emission
-            .map(|view| cleared(view, wgpu::Color::BLACK)),
-    ]
-    .into_iter()
-    .filter(Option::is_some)
-    .collect();
+    let attachments = targets.attachments(inputs.far_m);
     let formats: Vec<_> = attachments
         .iter()
         .flatten()
         .map(|attachment| Some(attachment.view.texture().format().into()))
         .collect();
-    let fragment = match (targets.normals, targets.emission) {
-        (None, None) => "fs_flat",
-        (None, Some(_)) => "fs_flat_emitting",
-        (Some(_), None) => "fs_full",
-        (Some(_), Some(_)) => "fs_full_emitting",
-    };
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("geometry"),
         color_attachments: &attachments,
@@ -91,7 +100,7 @@ pub(in super::super) fn geometry(
                 label: "geometry",
                 source: include_str!("../shaders/geometry.wgsl"),
                 variants: &variants,
-                fragment: Some(fragment),
+                fragment: Some(targets.fragment()),
                 attributes: Attributes::All,
                 groups: &[&frame, &material.bound],
                 targets: &formats,

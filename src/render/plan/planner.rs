@@ -1,12 +1,9 @@
-//! The rules: what each pass is called for by.
+//! The order of the passes, with what each reads and writes.
 
 use super::super::frame::{FrameRequest, SHADOW_SIZE_PX};
-use super::super::technique::Noise;
+use super::rules::Asked;
 use super::{FramePlan, GeometryFacts, LeftOut, PassKind, PlannedPass};
-use crate::scene::{Ambient, Background, ToneMap};
-
-/// Called for, and by what; or not called for, and why not.
-type Asked = Result<String, String>;
+use crate::scene::{Ambient, ToneMap};
 
 /// Plans a frame.
 pub(super) fn plan(request: &FrameRequest, geometry: &GeometryFacts) -> FramePlan {
@@ -32,9 +29,9 @@ pub(super) fn plan(request: &FrameRequest, geometry: &GeometryFacts) -> FramePla
     planner.plan
 }
 
-struct Planner<'a> {
-    request: &'a FrameRequest,
-    geometry: &'a GeometryFacts,
+pub(super) struct Planner<'a> {
+    pub(super) request: &'a FrameRequest,
+    pub(super) geometry: &'a GeometryFacts,
     plan: FramePlan,
 }
 
@@ -81,142 +78,8 @@ impl Planner<'_> {
         (self.request.width_px, self.request.height_px)
     }
 
-    fn occludes(&self) -> Asked {
-        let settings = &self.request.occlusion;
-        match settings.technique.shader {
-            Some(_) => Ok(format!("the technique is `{}`", settings.label)),
-            None => Err(format!("the technique is `{}`", settings.label)),
-        }
-    }
-
-    fn blurs(&self) -> Asked {
-        self.occludes()?;
-        if self.request.occlusion.technique.noise == Noise::None {
-            return Err(String::from("the technique's estimate has no noise"));
-        }
-        match self.request.blur_radius_px {
-            0 => Err(String::from("the scene's blur_radius_px is 0")),
-            radius => Ok(format!(
-                "the samples turn from pixel to pixel in a 4×4 tile; the scene asks for a blur of {radius} px"
-            )),
-        }
-    }
-
-    fn sun(&self) -> Asked {
-        match self.request.lighting.sun {
-            Some(_) => Ok(String::from("the lighting has a directional light")),
-            None => Err(String::from("the lighting has no directional light")),
-        }
-    }
-
-    fn casts_shadows(&self) -> Asked {
-        self.sun()?;
-        let casts = self
-            .request
-            .lighting
-            .sun
-            .as_ref()
-            .is_some_and(|sun| sun.casts_shadows);
-        match (casts, self.geometry.triangles) {
-            (false, _) => Err(String::from("the directional light casts no shadows")),
-            (true, 0) => Err(String::from("there is no surface to cast a shadow")),
-            (true, _) => Ok(String::from("the directional light casts shadows")),
-        }
-    }
-
-    fn points(&self) -> Asked {
-        match self.request.lighting.points.len() {
-            0 => Err(String::from("the lighting has no point light")),
-            1 => Ok(String::from("the lighting has a point light")),
-            count => Ok(format!("the lighting has {count} point lights")),
-        }
-    }
-
-    fn reflects(&self) -> Asked {
-        if self.request.lighting.reflections {
-            Ok(String::from(
-                "the lighting asks for reflections of the environment",
-            ))
-        } else {
-            Err(String::from("the lighting asks for none"))
-        }
-    }
-
-    fn sky(&self) -> Asked {
-        if self.request.lighting.background != Background::Environment {
-            return Err(String::from("the background is one colour"));
-        }
-        match self.geometry.uncovered {
-            Some(true) => Ok(String::from("some pixels show no surface")),
-            Some(false) => Err(String::from("surfaces cover every pixel")),
-            None => Ok(String::from(
-                "the background is the environment (left out if the depth shows that surfaces cover every pixel)",
-            )),
-        }
-    }
-
-    fn emits(&self) -> Asked {
-        if self.geometry.emits {
-            Ok(String::from("a material sends out light"))
-        } else {
-            Err(String::from("no material sends out light"))
-        }
-    }
-
-    fn bakes(&self) -> Asked {
-        match (
-            self.request.baked_occlusion,
-            self.geometry.has_baked_occlusion,
-        ) {
-            (true, true) => Ok(String::from(
-                "the scene asks for the model's baked occlusion",
-            )),
-            (true, false) => Err(String::from("no material has any")),
-            (false, _) => Err(String::from(
-                "the scene does not ask for it: it would count beside the computed one",
-            )),
-        }
-    }
-
-    /// Whether the frame is ambient light before a colour and nothing else, none of it
-    /// brighter than white: then no radiance needs keeping.
-    fn is_plain(&self) -> bool {
-        let lighting = &self.request.lighting;
-        !self.request.all_effects
-            && matches!(lighting.ambient, Ambient::Constant(_))
-            && lighting.tone_map == ToneMap::None
-            && [
-                self.sun(),
-                self.points(),
-                self.reflects(),
-                self.emits(),
-                self.sky(),
-            ]
-            .iter()
-            .all(Result::is_err)
-    }
-
     fn geometry(&mut self) {
-        let needs_normals: Vec<&str> = [
-            (self.occludes().is_ok(), "the occlusion"),
-            (
-                self.request.lighting.ambient == Ambient::Environment,
-                "the environment's light",
-            ),
-            (self.reflects().is_ok(), "reflections"),
-            (self.sun().is_ok(), "the directional light"),
-            (self.points().is_ok(), "the point lights"),
-        ]
-        .into_iter()
-        .filter_map(|(needed, by)| needed.then_some(by))
-        .collect();
-        let normals = if needs_normals.is_empty() {
-            Err(String::from(
-                "constant ambient light alone depends on no normal",
-            ))
-        } else {
-            Ok(needs_normals.join(", "))
-        };
+        let normals = self.reads_normals();
         let mut because = String::from("surfaces are shaded");
         let mut writes = vec!["albedo", "linear depth"];
         if let Some(readers) = self.runs("normals target", normals) {
@@ -224,12 +87,7 @@ impl Planner<'_> {
             writes.push("normals");
             because += &format!("; their normals are read by {readers}");
         }
-        let mapped = match (self.geometry.has_normal_maps, self.plan.reads_normals) {
-            (false, _) => Err("no material has a normal map"),
-            (true, false) => Err("nothing reads normals"),
-            (true, true) => Ok(()),
-        };
-        if let Err(reason) = mapped {
+        if let Err(reason) = self.maps_normals(self.plan.reads_normals) {
             self.leave_out("normal mapping", format!("{reason}: no tangent is read"));
         }
         let emission = self

@@ -1,0 +1,158 @@
+//! The rules: what calls for each effect, or why nothing does.
+
+use super::super::technique::Noise;
+use super::planner::Planner;
+use crate::scene::{Ambient, Background, ToneMap};
+
+/// Called for, and by what; or not called for, and why not.
+pub(super) type Asked = Result<String, String>;
+
+impl Planner<'_> {
+    pub(super) fn occludes(&self) -> Asked {
+        let settings = &self.request.occlusion;
+        match settings.technique.shader {
+            Some(_) => Ok(format!("the technique is `{}`", settings.label)),
+            None => Err(format!("the technique is `{}`", settings.label)),
+        }
+    }
+
+    pub(super) fn blurs(&self) -> Asked {
+        self.occludes()?;
+        if self.request.occlusion.technique.noise == Noise::None {
+            return Err(String::from("the technique's estimate has no noise"));
+        }
+        match self.request.blur_radius_px {
+            0 => Err(String::from("the scene's blur_radius_px is 0")),
+            radius => Ok(format!(
+                "the samples turn from pixel to pixel in a 4×4 tile; the scene asks for a blur of {radius} px"
+            )),
+        }
+    }
+
+    pub(super) fn sun(&self) -> Asked {
+        match self.request.lighting.sun {
+            Some(_) => Ok(String::from("the lighting has a directional light")),
+            None => Err(String::from("the lighting has no directional light")),
+        }
+    }
+
+    pub(super) fn casts_shadows(&self) -> Asked {
+        self.sun()?;
+        let casts = self
+            .request
+            .lighting
+            .sun
+            .as_ref()
+            .is_some_and(|sun| sun.casts_shadows);
+        match (casts, self.geometry.triangles) {
+            (false, _) => Err(String::from("the directional light casts no shadows")),
+            (true, 0) => Err(String::from("there is no surface to cast a shadow")),
+            (true, _) => Ok(String::from("the directional light casts shadows")),
+        }
+    }
+
+    pub(super) fn points(&self) -> Asked {
+        match self.request.lighting.points.len() {
+            0 => Err(String::from("the lighting has no point light")),
+            1 => Ok(String::from("the lighting has a point light")),
+            count => Ok(format!("the lighting has {count} point lights")),
+        }
+    }
+
+    pub(super) fn reflects(&self) -> Asked {
+        if self.request.lighting.reflections {
+            Ok(String::from(
+                "the lighting asks for reflections of the environment",
+            ))
+        } else {
+            Err(String::from("the lighting asks for none"))
+        }
+    }
+
+    pub(super) fn sky(&self) -> Asked {
+        if self.request.lighting.background != Background::Environment {
+            return Err(String::from("the background is one colour"));
+        }
+        match self.geometry.uncovered {
+            Some(true) => Ok(String::from("some pixels show no surface")),
+            Some(false) => Err(String::from("surfaces cover every pixel")),
+            None => Ok(String::from(
+                "the background is the environment (left out if the depth shows that surfaces cover every pixel)",
+            )),
+        }
+    }
+
+    pub(super) fn emits(&self) -> Asked {
+        if self.geometry.emits {
+            Ok(String::from("a material sends out light"))
+        } else {
+            Err(String::from("no material sends out light"))
+        }
+    }
+
+    pub(super) fn bakes(&self) -> Asked {
+        match (
+            self.request.baked_occlusion,
+            self.geometry.has_baked_occlusion,
+        ) {
+            (true, true) => Ok(String::from(
+                "the scene asks for the model's baked occlusion",
+            )),
+            (true, false) => Err(String::from("no material has any")),
+            (false, _) => Err(String::from(
+                "the scene does not ask for it: it would count beside the computed one",
+            )),
+        }
+    }
+
+    /// Whether the frame is ambient light before a colour and nothing else, none of it
+    /// brighter than white: then no radiance needs keeping.
+    pub(super) fn is_plain(&self) -> bool {
+        let lighting = &self.request.lighting;
+        !self.request.all_effects
+            && matches!(lighting.ambient, Ambient::Constant(_))
+            && lighting.tone_map == ToneMap::None
+            && [
+                self.sun(),
+                self.points(),
+                self.reflects(),
+                self.emits(),
+                self.sky(),
+            ]
+            .iter()
+            .all(Result::is_err)
+    }
+
+    /// Whether anything reads the surfaces' normals; what does.
+    pub(super) fn reads_normals(&self) -> Asked {
+        let readers: Vec<&str> = [
+            (self.occludes().is_ok(), "the occlusion"),
+            (
+                self.request.lighting.ambient == Ambient::Environment,
+                "the environment's light",
+            ),
+            (self.reflects().is_ok(), "reflections"),
+            (self.sun().is_ok(), "the directional light"),
+            (self.points().is_ok(), "the point lights"),
+        ]
+        .into_iter()
+        .filter_map(|(needed, by)| needed.then_some(by))
+        .collect();
+        if readers.is_empty() {
+            Err(String::from(
+                "constant ambient light alone depends on no normal",
+            ))
+        } else {
+            Ok(readers.join(", "))
+        }
+    }
+
+    /// Whether normal maps are read, given whether normals are.
+    pub(super) fn maps_normals(&self, reads_normals: bool) -> Result<(), &'static str> {
+        match (self.geometry.has_normal_maps, reads_normals) {
+            (false, _) => Err("no material has a normal map"),
+            (true, false) => Err("nothing reads normals"),
+            (true, true) => Ok(()),
+        }
+    }
+}
