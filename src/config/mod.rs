@@ -5,6 +5,7 @@
 //! quantities in them are the unit types of [`quantity`].
 
 mod error;
+mod parameter;
 pub mod quantity;
 
 use std::path::Path;
@@ -12,6 +13,7 @@ use std::path::Path;
 use serde::de::DeserializeOwned;
 
 pub use error::ConfigError;
+pub use parameter::ParameterValue;
 
 /// Reads and parses one TOML file.
 ///

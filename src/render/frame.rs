@@ -3,7 +3,7 @@
 use glam::{Mat4, Vec3};
 
 use super::plan::FramePlan;
-use super::technique::{Settings, TECHNIQUES};
+use super::technique::{self, Settings, TECHNIQUES};
 use crate::scene::{Camera, Lighting, ModelLights, PointLight, SceneConfig, Sun};
 
 /// How finely normals and occlusion are stored.
@@ -120,6 +120,20 @@ impl FrameRequest {
         self.width_px as f32 / self.height_px as f32
     }
 
+    /// Whether occlusion is estimated once for 2 × 2 pixels.
+    pub(super) fn halves_occlusion(&self) -> bool {
+        self.occlusion.is(technique::RESOLUTION, "half")
+    }
+
+    /// Size of the occlusion target, pixels. An odd column or row has no estimate of its own.
+    pub(super) fn occlusion_size(&self) -> (u32, u32) {
+        let divisor = if self.halves_occlusion() { 2 } else { 1 };
+        (
+            (self.width_px / divisor).max(1),
+            (self.height_px / divisor).max(1),
+        )
+    }
+
     /// Size of the targets that are shaded, pixels.
     pub(super) fn shaded_size(&self) -> (u32, u32) {
         (
@@ -165,6 +179,19 @@ impl FrameUniform {
             image_px: [request.width_px as f32, request.height_px as f32],
             samples: request.supersampling as i32,
             padding: [0; 3],
+        }
+    }
+
+    /// The same for the passes that estimate occlusion, whose pixels may be larger. Their size is
+    /// a fraction where the image's is odd, so that points stay where they are.
+    pub(super) fn of_occlusion(request: &FrameRequest) -> Self {
+        let side = if request.halves_occlusion() { 2 } else { 1 };
+        let size = [request.width_px, request.height_px].map(|px| px as f32 / side as f32);
+        Self {
+            size_px: size,
+            image_px: size,
+            samples: (side * request.supersampling) as i32,
+            ..Self::new(request, (request.width_px, request.height_px))
         }
     }
 

@@ -26,6 +26,8 @@ pub enum PassKind {
     BlurRows,
     /// Edge-aware blur along columns.
     BlurColumns,
+    /// Occlusion of half resolution to every pixel.
+    Upsample,
     /// Ambient light to the image at once.
     Shade,
     /// Light from all round.
@@ -55,6 +57,7 @@ impl PassKind {
             Self::Occlusion => "occlusion",
             Self::BlurRows => "blur-rows",
             Self::BlurColumns => "blur-columns",
+            Self::Upsample => "upsample",
             Self::Shade => "shade",
             Self::Ambient => "ambient",
             Self::Reflections => "reflections",

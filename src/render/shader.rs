@@ -7,6 +7,7 @@ const PARTS: &[(&str, &str)] = &[
     ("frame", include_str!("shaders/common/frame.wgsl")),
     ("fullscreen", include_str!("shaders/common/fullscreen.wgsl")),
     ("grid", include_str!("shaders/common/grid.wgsl")),
+    ("gather", include_str!("shaders/common/gather.wgsl")),
     ("octahedral", include_str!("shaders/common/octahedral.wgsl")),
     ("occlusion", include_str!("shaders/common/occlusion.wgsl")),
     ("sampling", include_str!("shaders/material/sampling.wgsl")),

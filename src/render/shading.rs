@@ -7,7 +7,7 @@ use super::bindings::uniform_of;
 use super::environment::EnvironmentTextures;
 use super::frame::{Formats, FrameRequest, FrameUniform, normals_part};
 use super::light::{LightUniform, PointUniform};
-use super::pass::{self, BlurInputs, LightInputs, OcclusionInputs};
+use super::pass::{self, BlurInputs, LightInputs, OcclusionInputs, UpsampleInputs};
 use super::plan::{FramePlan, PassKind};
 use super::readback::{FloatImage, Readback};
 use super::recorder::Recorder;
@@ -48,8 +48,7 @@ pub(super) fn shade(
     }
     let image = Readback::record(gpu, &mut recorder.encoder, shading.image.texture());
     let occlusion = shading
-        .occlusion
-        .as_ref()
+        .final_occlusion()
         .map(|view| Readback::record(gpu, &mut recorder.encoder, view.texture()));
     let passes = recorder.finish();
     Ok(Shaded {
@@ -80,14 +79,17 @@ struct Shading<'a> {
     plan: &'a FramePlan,
     drawn: Drawn<'a>,
     normals_part: (&'static str, &'static str),
-    /// Frame numbers at the shaded size, and at the image's.
+    /// Frame numbers at the shaded size, at the image's, and at the occlusion's.
     shaded_frame: wgpu::Buffer,
     image_frame: wgpu::Buffer,
+    occlusion_frame: wgpu::Buffer,
     light: wgpu::Buffer,
     points: Option<wgpu::Buffer>,
     occlusion: Option<wgpu::TextureView>,
     /// Between the blur's two directions.
     half_blurred: Option<wgpu::TextureView>,
+    /// Where occlusion is estimated at half resolution: what it comes to a pixel.
+    upsampled: Option<wgpu::TextureView>,
     radiance: Option<wgpu::TextureView>,
     image: wgpu::TextureView,
 }
@@ -114,6 +116,11 @@ impl<'a> Shading<'a> {
             normals_part: normals_part(plan, request.precision),
             shaded_frame: frame(request.shaded_size()),
             image_frame: frame(image_size),
+            occlusion_frame: uniform_of(
+                &gpu.device,
+                "frame",
+                &[FrameUniform::of_occlusion(request)],
+            ),
             light: uniform_of(&gpu.device, "light", &[lights]),
             points: plan.has(PassKind::PointLights).then(|| {
                 gpu.device
@@ -126,12 +133,18 @@ impl<'a> Shading<'a> {
             occlusion: on_plan(
                 PassKind::Occlusion,
                 "occlusion",
-                image_size,
+                request.occlusion_size(),
                 occlusion_format,
             ),
             half_blurred: on_plan(
                 PassKind::BlurRows,
                 "half blurred",
+                request.occlusion_size(),
+                occlusion_format,
+            ),
+            upsampled: on_plan(
+                PassKind::Upsample,
+                "occlusion of every pixel",
                 image_size,
                 occlusion_format,
             ),
@@ -156,6 +169,7 @@ impl<'a> Shading<'a> {
             PassKind::BlurColumns => recorder.pass(kind, |encoder| {
                 self.blur(encoder, [0, 1], &self.half_blurred, &self.occlusion);
             }),
+            PassKind::Upsample => recorder.pass(kind, |encoder| self.upsample(encoder)),
             PassKind::Shade => recorder.pass(kind, |encoder| {
                 let (lighting, samples) = (&self.request.lighting, self.request.supersampling);
                 let inputs = self.light_inputs();
@@ -182,7 +196,7 @@ impl<'a> Shading<'a> {
             return;
         };
         let inputs = OcclusionInputs {
-            frame: &self.image_frame,
+            frame: &self.occlusion_frame,
             depth_m: &self.drawn.surfaces.depth_m,
             normals,
             normals_part: self.normals_part,
@@ -202,7 +216,7 @@ impl<'a> Shading<'a> {
             return;
         };
         let inputs = BlurInputs {
-            frame: &self.image_frame,
+            frame: &self.occlusion_frame,
             depth_m: &self.drawn.surfaces.depth_m,
             normals,
             normals_part: self.normals_part,
@@ -211,6 +225,29 @@ impl<'a> Shading<'a> {
             plane_m: self.request.blur_plane_m,
         };
         pass::blur(self.gpu, encoder, &inputs, direction, to);
+    }
+
+    fn upsample(&self, encoder: &mut wgpu::CommandEncoder) {
+        let (Some(normals), Some(occlusion), Some(target)) = (
+            &self.drawn.surfaces.normals,
+            &self.occlusion,
+            &self.upsampled,
+        ) else {
+            return;
+        };
+        let inputs = UpsampleInputs {
+            frame: &self.image_frame,
+            depth_m: &self.drawn.surfaces.depth_m,
+            normals,
+            normals_part: self.normals_part,
+            occlusion,
+        };
+        pass::upsample(self.gpu, encoder, &inputs, target);
+    }
+
+    /// The occlusion of every pixel, where there is any.
+    fn final_occlusion(&self) -> Option<&wgpu::TextureView> {
+        self.upsampled.as_ref().or(self.occlusion.as_ref())
     }
 
     fn light_inputs(&self) -> LightInputs<'_> {
@@ -229,7 +266,7 @@ impl<'a> Shading<'a> {
             emission: self.drawn.surfaces.emission.as_ref(),
             is_baked: self.plan.reads_emission
                 && (self.request.baked_occlusion || self.request.all_effects),
-            occlusion: self.occlusion.as_ref(),
+            occlusion: self.final_occlusion(),
             visibility: self.drawn.visibility,
             environment: self.drawn.environment,
             points: self.points.as_ref(),

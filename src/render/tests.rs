@@ -1,6 +1,6 @@
 //! Frames of scenes whose answer is known, on whatever adapter there is.
 
-use super::technique::{Settings, TECHNIQUES};
+use super::technique::{Range, Settings, TECHNIQUES};
 use super::testing::{
     assert_level, brightest, draw, floor, floor_and_wall, matte, pixel_of, renderer, request, rgb,
     srgb8,

@@ -22,7 +22,7 @@ use self::file::{CameraFile, Coordinate, Point, SceneFile};
 use super::lighting::Lighting;
 use super::model::ModelError;
 use super::{Camera, GeometrySource};
-use crate::config::{self, ConfigError};
+use crate::config::{self, ConfigError, ParameterValue};
 
 /// A scene that cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -72,8 +72,8 @@ pub struct OcclusionConfig {
     pub techniques: TechniqueParameters,
 }
 
-/// `[technique.NAME]` tables: numbers by parameter, checked by whoever knows the techniques.
-pub type TechniqueParameters = BTreeMap<String, BTreeMap<String, Spanned<f64>>>;
+/// `[technique.NAME]` tables: values by parameter, checked by whoever knows the techniques.
+pub type TechniqueParameters = BTreeMap<String, BTreeMap<String, Spanned<ParameterValue>>>;
 
 impl SceneConfig {
     /// Reads a scene config.

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::config::ParameterValue;
 use crate::digest;
 
 /// Name of the manifest in a folder of stimuli.
@@ -77,7 +78,7 @@ pub struct ImageRecord {
     /// Technique label as it stands in trial rows (`blizzard24`).
     pub technique: String,
     /// The technique's parameters, resolved, in their units.
-    pub parameters: BTreeMap<String, f64>,
+    pub parameters: BTreeMap<String, ParameterValue>,
     /// Passes that ran, in order; none for an image made elsewhere.
     pub passes: Vec<PassRecord>,
     /// The file it was converted from; absent for an image that was rendered here.

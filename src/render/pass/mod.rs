@@ -8,6 +8,7 @@ mod mesh;
 mod occlusion;
 mod output;
 mod shadow;
+mod upsample;
 
 pub(super) use blur::{BlurInputs, blur};
 pub(super) use geometry::{GeometryInputs, GeometryTargets, geometry, is_uncovered};
@@ -15,6 +16,7 @@ pub(super) use light::{LightInputs, light};
 pub(super) use occlusion::{OcclusionInputs, occlusion};
 pub(super) use output::{output, shade};
 pub(super) use shadow::{FilterInputs, shadow_filter, shadow_map};
+pub(super) use upsample::{UpsampleInputs, upsample};
 
 fn cleared(view: &wgpu::TextureView, colour: wgpu::Color) -> wgpu::RenderPassColorAttachment<'_> {
     wgpu::RenderPassColorAttachment {

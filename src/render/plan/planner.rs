@@ -137,20 +137,29 @@ impl Planner<'_> {
         let Some(because) = self.runs("occlusion", asked) else {
             return;
         };
-        let size = self.image_size();
+        let size = self.request.occlusion_size();
         let mut reads = vec!["linear depth"];
         if self.request.occlusion.technique.inputs.normals {
             reads.push("normals");
         }
         self.pass(PassKind::Occlusion, size, &reads, &["occlusion"], because);
-        let asked = self.blurs();
-        let Some(because) = self.runs("occlusion blur", asked) else {
-            return;
-        };
         let reads = ["occlusion", "linear depth", "normals"];
-        self.pass(PassKind::BlurRows, size, &reads, &["occlusion"], because);
-        let because = "the other direction of the blur";
-        self.pass(PassKind::BlurColumns, size, &reads, &["occlusion"], because);
+        let asked = self.blurs();
+        if let Some(because) = self.runs("occlusion blur", asked) {
+            self.pass(PassKind::BlurRows, size, &reads, &["occlusion"], because);
+            let because = "the other direction of the blur";
+            self.pass(PassKind::BlurColumns, size, &reads, &["occlusion"], because);
+        }
+        if self.request.halves_occlusion() {
+            let because = "the technique is asked for at half resolution";
+            let size = self.image_size();
+            self.pass(PassKind::Upsample, size, &reads, &["occlusion"], because);
+        } else {
+            self.leave_out(
+                "occlusion upsampling",
+                "there is an estimate for every pixel",
+            );
+        }
     }
 
     /// What a pass of the ambient term reads.

@@ -75,8 +75,9 @@ fn a_technique_brings_its_pass_and_its_blur() {
 fn everything_asked_for_is_everything_but_the_shortcut() {
     let mut request = brightest("blizzard24");
     request.baked_occlusion = true;
+    request.occlusion.set("resolution", "half").unwrap();
     let plan = FramePlan::new(&request, &FACTS);
-    assert_eq!(plan.passes.len(), 13);
+    assert_eq!(plan.passes.len(), 14);
     assert_eq!(plan.left_out, []);
 }
 

@@ -7,6 +7,7 @@ struct Params {
     near_threshold_m: f32,
     far_threshold_m: f32,
     power: f32,
+    mode: f32,
 }
 
 fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
@@ -16,8 +17,8 @@ fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
     var sum = 0.0;
     for (var i = 0u; i < u32(params.samples); i++) {
         let offset = hemisphere_offset(kernel[i].xyz, mirror, normal);
-        let surface_m = surface_depth_at(centre_m + offset * params.radius_m);
-        sum += openness(max(depth_m - surface_m, 0.0));
+        let sample_m = centre_m + offset * params.radius_m;
+        sum += openness(in_front_m(sample_m, depth_m, surface_depth_at(sample_m)));
     }
     return sum / params.samples;
 }

@@ -16,24 +16,20 @@ pub static CRYTEK: Technique = Technique {
     },
     noise: Noise::Tile,
     parameters: &[
-        Parameter {
-            name: "samples",
-            meaning: "samples a pixel, whole cubes of 8",
-            unit: "",
-            low: 8.0,
-            high: 256.0,
-            default: 24.0,
-            multiple_of: 8.0,
-        },
-        Parameter {
-            name: "radius_uv",
-            meaning: "length of the offsets before they grow (11-fold in all), as a fraction of the picture",
-            unit: "",
-            low: 0.0,
-            high: 1.0,
-            default: 0.01,
-            multiple_of: 0.0,
-        },
+        Parameter::count(
+            "samples",
+            (8.0, 256.0),
+            8.0,
+            24.0,
+            "samples a pixel, whole cubes of 8",
+        ),
+        Parameter::number(
+            "radius_uv",
+            "",
+            (0.0, 1.0),
+            0.01,
+            "length of the offsets before they grow (11-fold in all), as a fraction of the picture",
+        ),
     ],
     samples: Some("samples"),
     presets: &[Preset {

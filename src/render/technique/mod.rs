@@ -2,12 +2,17 @@
 //! computes, and one line in [`TECHNIQUES`]. The config parser, the command line's help,
 //! the application's lists and the cost sweep read this registry.
 
+mod alchemy;
 mod blizzard;
 mod crytek;
+mod gtao;
+mod hbao;
 mod none;
 mod ray_march;
 mod sampling;
 mod settings;
+mod slices;
+mod vbao;
 
 use crate::seed;
 pub use settings::{Settings, SettingsError};
@@ -18,6 +23,10 @@ pub const TECHNIQUES: &[&Technique] = &[
     &crytek::CRYTEK,
     &blizzard::BLIZZARD,
     &ray_march::RAY_MARCH,
+    &alchemy::ALCHEMY,
+    &hbao::HBAO,
+    &gtao::GTAO,
+    &vbao::VBAO,
 ];
 
 /// What an estimate of occlusion weights directions by. Mixing them is a bias: the
@@ -52,25 +61,122 @@ pub enum Noise {
     None,
     /// The samples turn with the 4 × 4 tile of [`noise_tile`].
     Tile,
+    /// The samples turn along a Hilbert curve, well spread over any patch of pixels.
+    Hilbert,
 }
 
-/// A number a technique can be set to.
+/// Something a technique can be set to.
 #[derive(Debug)]
 pub struct Parameter {
     /// Name in configs, with its unit.
     pub name: &'static str,
     /// What it does, one line.
     pub meaning: &'static str,
-    /// Unit for messages; empty for a plain number.
-    pub unit: &'static str,
-    /// Smallest value allowed.
-    pub low: f64,
-    /// Largest value allowed.
-    pub high: f64,
-    /// Value where nothing else is said.
-    pub default: f64,
-    /// Only multiples of this; 0 for any number.
-    pub multiple_of: f64,
+    /// Which values there are.
+    pub range: Range,
+}
+
+/// The values of a parameter.
+#[derive(Debug, Clone, Copy)]
+pub enum Range {
+    /// Numbers.
+    Number {
+        /// Unit for messages; empty for a plain number.
+        unit: &'static str,
+        /// Smallest value allowed.
+        low: f64,
+        /// Largest value allowed.
+        high: f64,
+        /// Value where nothing else is said.
+        default: f64,
+        /// Only multiples of this; 0 for any number.
+        multiple_of: f64,
+    },
+    /// Words; the first is the value where nothing else is said. WGSL gets its place among them.
+    Choice(&'static [&'static str]),
+}
+
+impl Parameter {
+    /// A number in a unit, from `low` to `high`.
+    #[must_use]
+    pub const fn number(
+        name: &'static str,
+        unit: &'static str,
+        (low, high): (f64, f64),
+        default: f64,
+        meaning: &'static str,
+    ) -> Self {
+        Self {
+            name,
+            meaning,
+            range: Range::Number {
+                unit,
+                low,
+                high,
+                default,
+                multiple_of: 0.0,
+            },
+        }
+    }
+
+    /// A count, from `low` to `high` in steps of `step`.
+    #[must_use]
+    pub const fn count(
+        name: &'static str,
+        (low, high): (f64, f64),
+        step: f64,
+        default: f64,
+        meaning: &'static str,
+    ) -> Self {
+        Self {
+            name,
+            meaning,
+            range: Range::Number {
+                unit: "",
+                low,
+                high,
+                default,
+                multiple_of: step,
+            },
+        }
+    }
+
+    /// One of some words, the first by default.
+    #[must_use]
+    pub const fn choice(
+        name: &'static str,
+        words: &'static [&'static str],
+        meaning: &'static str,
+    ) -> Self {
+        Self {
+            name,
+            meaning,
+            range: Range::Choice(words),
+        }
+    }
+
+    /// What is allowed, and the default, for people.
+    #[must_use]
+    pub fn allowed(&self) -> String {
+        match self.range {
+            Range::Choice(words) => format!("{} (default {})", words.join(" or "), words[0]),
+            Range::Number {
+                unit,
+                low,
+                high,
+                default,
+                multiple_of,
+            } => {
+                let space = if unit.is_empty() { "" } else { " " };
+                let steps = if multiple_of > 1.0 {
+                    format!("multiples of {multiple_of}, ")
+                } else {
+                    String::new()
+                };
+                format!("{steps}{low} to {high}{space}{unit} (default {default})")
+            }
+        }
+    }
 }
 
 /// A label for settings that people know.
@@ -97,7 +203,7 @@ pub struct Technique {
     pub inputs: Inputs,
     /// How its estimate varies between neighbours, for the blur.
     pub noise: Noise,
-    /// Its parameters, in the order of the WGSL struct `Params`.
+    /// Its own parameters, in the order of the WGSL struct `Params`.
     pub parameters: &'static [Parameter],
     /// The parameter that is its number of samples a pixel, if it has one.
     pub samples: Option<&'static str>,
@@ -110,14 +216,32 @@ pub struct Technique {
 }
 
 impl Technique {
+    /// Its own parameters, then those of every technique that runs a pass.
+    pub fn all_parameters(&self) -> impl Iterator<Item = &'static Parameter> + use<> {
+        let common: &[Parameter] = match self.shader {
+            Some(_) => COMMON,
+            None => &[],
+        };
+        self.parameters.iter().chain(common)
+    }
+
     /// The parameter of that name.
     #[must_use]
     pub fn parameter(&self, name: &str) -> Option<&'static Parameter> {
-        self.parameters
-            .iter()
+        self.all_parameters()
             .find(|parameter| parameter.name == name)
     }
 }
+
+/// Name of the parameter that every technique with a pass has: at which resolution it runs.
+pub(super) const RESOLUTION: &str = "resolution";
+
+/// What every technique that runs a pass can be set to beside its own parameters.
+const COMMON: &[Parameter] = &[Parameter::choice(
+    RESOLUTION,
+    &["full", "half"],
+    "one estimate a pixel, or one for 2 x 2 pixels, brought to the others by depth",
+)];
 
 /// The technique of that name.
 #[must_use]
@@ -137,8 +261,11 @@ pub fn noise_tile(seed: u64) -> [[f32; 4]; 16] {
 }
 
 /// WGSL that techniques share beyond the common parts.
-pub(super) const SHARED_WGSL: &[(&str, &str)] =
-    &[("thesis_falloff", include_str!("thesis_falloff.wgsl"))];
+pub(super) const SHARED_WGSL: &[(&str, &str)] = &[
+    ("thesis_falloff", include_str!("thesis_falloff.wgsl")),
+    ("spatial_noise", include_str!("spatial_noise.wgsl")),
+    ("slices", include_str!("slices.wgsl")),
+];
 
 #[cfg(test)]
 mod tests;

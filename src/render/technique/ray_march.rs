@@ -1,6 +1,6 @@
 //! The thesis' own technique: blizzard's offsets, walked in steps.
 
-use super::blizzard::{DISTANCE_SCALE, FAR_THRESHOLD, NEAR_THRESHOLD, POWER, RADIUS};
+use super::blizzard::{DISTANCE_SCALE, FAR_THRESHOLD, MODE, NEAR_THRESHOLD, POWER, RADIUS};
 use super::{Inputs, Noise, Parameter, Preset, Settings, Technique, Weighting, sampling};
 use crate::seed;
 
@@ -16,29 +16,14 @@ pub static RAY_MARCH: Technique = Technique {
     },
     noise: Noise::Tile,
     parameters: &[
-        Parameter {
-            name: "directions",
-            meaning: "directions a pixel",
-            unit: "",
-            low: 1.0,
-            high: 256.0,
-            default: 30.0,
-            multiple_of: 1.0,
-        },
-        Parameter {
-            name: "steps",
-            meaning: "steps along a direction",
-            unit: "",
-            low: 1.0,
-            high: 64.0,
-            default: 4.0,
-            multiple_of: 1.0,
-        },
+        Parameter::count("directions", (1.0, 256.0), 1.0, 30.0, "directions a pixel"),
+        Parameter::count("steps", (1.0, 64.0), 1.0, 4.0, "steps along a direction"),
         RADIUS,
         DISTANCE_SCALE,
         NEAR_THRESHOLD,
         FAR_THRESHOLD,
         POWER,
+        MODE,
     ],
     samples: Some("directions"),
     presets: &[Preset {

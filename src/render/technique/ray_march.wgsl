@@ -9,6 +9,7 @@ struct Params {
     near_threshold_m: f32,
     far_threshold_m: f32,
     power: f32,
+    mode: f32,
 }
 
 fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
@@ -20,8 +21,9 @@ fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
         let stride = hemisphere_offset(kernel[i].xyz, mirror, normal) * (params.radius_m / params.steps);
         var delta_m = 0.0;
         for (var step = 1.0; step <= params.steps; step += 1.0) {
-            delta_m = max(depth_m - surface_depth_at(centre_m + stride * step), 0.0);
-            if delta_m >= params.near_threshold_m {
+            let sample_m = centre_m + stride * step;
+            delta_m = in_front_m(sample_m, depth_m, surface_depth_at(sample_m));
+            if blocks(delta_m) {
                 break;
             }
         }

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::{TECHNIQUES, Technique, find};
-use crate::config::quantity;
+use super::{Parameter, Range, TECHNIQUES, Technique, find};
+use crate::config::{ParameterValue, quantity};
 
 /// A technique, fully set.
 #[derive(Debug, Clone)]
@@ -71,9 +71,11 @@ impl Settings {
             label: label.to_owned(),
             technique,
             values: technique
-                .parameters
-                .iter()
-                .map(|p| (p.name, p.default))
+                .all_parameters()
+                .map(|p| match p.range {
+                    Range::Number { default, .. } => (p.name, default),
+                    Range::Choice(_) => (p.name, 0.0),
+                })
                 .collect(),
             fixed_by_label: Vec::new(),
         }
@@ -83,7 +85,11 @@ impl Settings {
     ///
     /// # Errors
     /// [`SettingsError`] if the technique has no such parameter, or the value is not allowed.
-    pub fn set(&mut self, name: &str, value: f64) -> Result<(), SettingsError> {
+    pub fn set(
+        &mut self,
+        name: &str,
+        value: impl Into<ParameterValue>,
+    ) -> Result<(), SettingsError> {
         let error = |message: String| SettingsError {
             parameter: Some(name.to_owned()),
             message: format!(
@@ -92,7 +98,7 @@ impl Settings {
             ),
         };
         let Some(parameter) = self.technique.parameter(name) else {
-            let known: Vec<&str> = self.technique.parameters.iter().map(|p| p.name).collect();
+            let known: Vec<&str> = self.technique.all_parameters().map(|p| p.name).collect();
             return Err(error(format!(
                 "there is no such parameter; there are: {}",
                 if known.is_empty() {
@@ -102,14 +108,8 @@ impl Settings {
                 }
             )));
         };
-        quantity::check(value, parameter.low, parameter.high, parameter.unit).map_err(error)?;
-        if parameter.multiple_of > 0.0 && value % parameter.multiple_of != 0.0 {
-            return Err(error(format!(
-                "found {value}, allowed are multiples of {}",
-                parameter.multiple_of
-            )));
-        }
-        self.values.insert(parameter.name, value);
+        let number = number_of(parameter.range, &value.into()).map_err(error)?;
+        self.values.insert(parameter.name, number);
         Ok(())
     }
 
@@ -118,7 +118,11 @@ impl Settings {
     ///
     /// # Errors
     /// As [`set`](Self::set).
-    pub fn set_scene_default(&mut self, name: &str, value: f64) -> Result<(), SettingsError> {
+    pub fn set_scene_default(
+        &mut self,
+        name: &str,
+        value: impl Into<ParameterValue>,
+    ) -> Result<(), SettingsError> {
         let mut probe = self.clone();
         probe.set(name, value)?;
         if !self.fixed_by_label.contains(&name) {
@@ -127,7 +131,7 @@ impl Settings {
         Ok(())
     }
 
-    /// The value of a parameter.
+    /// The value of a parameter; of a choice, its place among the words.
     ///
     /// # Panics
     /// If the technique declares no such parameter: only its own file asks.
@@ -136,12 +140,28 @@ impl Settings {
         self.values[name]
     }
 
+    /// Whether the technique has a parameter that is set to this word.
+    #[must_use]
+    pub fn is(&self, name: &str, word: &str) -> bool {
+        self.technique
+            .parameter(name)
+            .is_some_and(|parameter| self.value(parameter) == ParameterValue::from(word))
+    }
+
+    fn value(&self, parameter: &Parameter) -> ParameterValue {
+        let number = self.values[parameter.name];
+        match parameter.range {
+            Range::Number { .. } => ParameterValue::Number(number),
+            Range::Choice(words) => words[number as usize].into(),
+        }
+    }
+
     /// Every parameter with its value, by name.
     #[must_use]
-    pub fn values(&self) -> BTreeMap<String, f64> {
-        self.values
-            .iter()
-            .map(|(name, value)| ((*name).to_owned(), *value))
+    pub fn values(&self) -> BTreeMap<String, ParameterValue> {
+        self.technique
+            .all_parameters()
+            .map(|parameter| (parameter.name.to_owned(), self.value(parameter)))
             .collect()
     }
 
@@ -157,6 +177,41 @@ impl Settings {
             .collect();
         numbers.resize(numbers.len().next_multiple_of(4).max(4), 0.0);
         numbers
+    }
+}
+
+/// A value as the number that WGSL gets.
+fn number_of(range: Range, value: &ParameterValue) -> Result<f64, String> {
+    match (range, value) {
+        (
+            Range::Number {
+                unit,
+                low,
+                high,
+                multiple_of,
+                ..
+            },
+            ParameterValue::Number(number),
+        ) => {
+            quantity::check(*number, low, high, unit)?;
+            if multiple_of > 0.0 && number % multiple_of != 0.0 {
+                return Err(format!(
+                    "found {number}, allowed are multiples of {multiple_of}"
+                ));
+            }
+            Ok(*number)
+        }
+        (Range::Choice(words), ParameterValue::Word(found)) => words
+            .iter()
+            .position(|word| word == found)
+            .map(|place| place as f64)
+            .ok_or_else(|| format!("found \"{found}\", allowed are {}", words.join(", "))),
+        (Range::Number { .. }, ParameterValue::Word(found)) => {
+            Err(format!("found \"{found}\", a number is needed"))
+        }
+        (Range::Choice(words), ParameterValue::Number(number)) => {
+            Err(format!("found {number}, allowed are {}", words.join(", ")))
+        }
     }
 }
 

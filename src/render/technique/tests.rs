@@ -19,8 +19,16 @@ fn names_and_labels_are_unique() {
 fn every_default_and_preset_is_allowed() {
     for technique in TECHNIQUES {
         let mut settings = Settings::from_label(technique.name).unwrap();
-        for parameter in technique.parameters {
-            settings.set(parameter.name, parameter.default).unwrap();
+        for parameter in technique.all_parameters() {
+            match parameter.range {
+                Range::Number { default, .. } => settings.set(parameter.name, default).unwrap(),
+                Range::Choice(words) => {
+                    for word in words {
+                        settings.set(parameter.name, *word).unwrap();
+                        assert!(settings.is(parameter.name, word));
+                    }
+                }
+            }
         }
         for preset in technique.presets {
             assert_eq!(

@@ -83,9 +83,17 @@ fn degenerate_frames_stay_finite() {
         for scene in &scenes {
             for extreme in [0.0, 0.5, 1.0] {
                 let mut request = request(technique.name);
-                for parameter in technique.parameters.iter().filter(|p| p.multiple_of == 0.0) {
-                    let value = parameter.low + extreme * (parameter.high - parameter.low);
-                    request.occlusion.set(parameter.name, value).unwrap();
+                for parameter in technique.parameters {
+                    if let Range::Number {
+                        low,
+                        high,
+                        multiple_of: 0.0,
+                        ..
+                    } = parameter.range
+                    {
+                        let value = low + extreme * (high - low);
+                        request.occlusion.set(parameter.name, value).unwrap();
+                    }
                 }
                 let occlusion = draw(scene, &request).occlusion.unwrap();
                 let worst = occlusion.values.iter().find(|k| !(0.0..=1.0).contains(*k));

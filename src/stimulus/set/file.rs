@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde::de::{Error as _, MapAccess, Visitor};
 use toml::Spanned;
 
-use crate::config::quantity;
+use crate::config::{ParameterValue, quantity};
 use crate::render::Precision;
 use crate::scene::config::{Stops, ToneMapFile};
 use crate::stimulus::loaded::ColourSpace;
@@ -56,7 +56,7 @@ pub(super) enum ImageFile {
 pub(super) struct TechniqueFile {
     pub technique: String,
     pub label: Option<String>,
-    pub parameters: BTreeMap<String, Spanned<f64>>,
+    pub parameters: BTreeMap<String, Spanned<ParameterValue>>,
 }
 
 /// `{ file = "hall.png", technique = "path-traced" }`, with what is to be known of it.
@@ -86,7 +86,7 @@ struct ImageVisitor;
 struct Keys {
     technique: Option<String>,
     label: Option<String>,
-    parameters: BTreeMap<String, Spanned<f64>>,
+    parameters: BTreeMap<String, Spanned<ParameterValue>>,
     file: Option<Spanned<PathBuf>>,
     colour_space: Option<ColourSpace>,
     exposure_ev: Option<Stops>,

@@ -6,7 +6,7 @@ use toml::Spanned;
 
 use super::file::{ConditionFile, ImageFile, LoadedFile, TechniqueFile};
 use super::{ImageSource, LoadedPair, RenderedPair, SetCondition, SetError};
-use crate::config::ConfigError;
+use crate::config::{ConfigError, ParameterValue};
 use crate::render::technique::{Settings, SettingsError};
 use crate::scene::SceneConfig;
 use crate::scene::ToneMap;
@@ -202,17 +202,19 @@ impl<'a> Loader<'a> {
         let name = settings.technique.name;
         for (parameter, value) in scene.occlusion.techniques.get(name).into_iter().flatten() {
             settings
-                .set_scene_default(parameter, *value.get_ref())
+                .set_scene_default(parameter, value.get_ref().clone())
                 .map_err(|error| scene_error(scene, name, parameter, value, &error))?;
         }
         for (parameter, value) in &choice.parameters {
-            settings.set(parameter, *value.get_ref()).map_err(|error| {
-                self.error(
-                    value.span(),
-                    &format!("{field}.{parameter}"),
-                    &error.message,
-                )
-            })?;
+            settings
+                .set(parameter, value.get_ref().clone())
+                .map_err(|error| {
+                    self.error(
+                        value.span(),
+                        &format!("{field}.{parameter}"),
+                        &error.message,
+                    )
+                })?;
         }
         if let Some(label) = &choice.label {
             check_id(label).map_err(|message| self.error(span, field, &message))?;
@@ -236,7 +238,7 @@ fn check_techniques(scene: &SceneConfig) -> Result<(), ConfigError> {
         })?;
         for (parameter, value) in parameters {
             settings
-                .set(parameter, *value.get_ref())
+                .set(parameter, value.get_ref().clone())
                 .map_err(|error| scene_error(scene, name, parameter, value, &error))?;
         }
     }
@@ -247,7 +249,7 @@ fn scene_error(
     scene: &SceneConfig,
     technique: &str,
     parameter: &str,
-    value: &Spanned<f64>,
+    value: &Spanned<ParameterValue>,
     error: &SettingsError,
 ) -> ConfigError {
     let field = format!("technique.{technique}.{parameter}");
