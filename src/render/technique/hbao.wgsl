@@ -20,7 +20,7 @@ fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
         var highest = sin(clamp(radians(params.bias_deg) - slice.normal_angle, -0.5 * PI, 0.5 * PI));
         for (var k = 0.0; k < params.steps; k += 1.0) {
             let step = step_px(slice, 1.0, params.radius_m, k + noise.y, params.steps, params.step_power);
-            let seen = seen_at(slice, centre_m, pixel, step);
+            let seen = seen_at(slice, 1.0, centre_m, pixel, step);
             if !seen.is_there || seen.distance_m > params.radius_m {
                 continue;
             }

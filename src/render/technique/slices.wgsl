@@ -45,7 +45,7 @@ struct Seen {
     // Its true distance, metres, and where it lies.
     distance_m: f32,
     position_m: vec3f,
-    // Whether there is one: not off the picture, the sky, or the point's own pixel.
+    // Whether there is one: not off the picture, the sky, the point's own pixel, or beside it.
     is_there: bool,
 }
 
@@ -57,8 +57,8 @@ fn into_slice(slice: Slice, offset_m: vec3f) -> vec2f {
     return vec2f(dot(inside, slice.across), dot(inside, slice.view));
 }
 
-// The sample at `step_px` from the pixel.
-fn seen_at(slice: Slice, centre_m: vec3f, pixel: vec2i, step_px: vec2f) -> Seen {
+// The sample at `step_px` from the pixel, on one side of the slice (1 or -1).
+fn seen_at(slice: Slice, side: f32, centre_m: vec3f, pixel: vec2i, step_px: vec2f) -> Seen {
     var seen: Seen;
     let tap = nearest_pixel(sample_px(pixel) + step_px);
     if !is_inside(tap) || all(tap == pixel) {
@@ -72,7 +72,9 @@ fn seen_at(slice: Slice, centre_m: vec3f, pixel: vec2i, step_px: vec2f) -> Seen 
     let offset_m = seen.position_m - centre_m;
     seen.distance_m = length(offset_m);
     seen.offset_m = into_slice(slice, offset_m);
-    seen.is_there = seen.distance_m > 0.0;
+    // A sample rounded to a pixel may come to lie on the slice's other side, or hardly in the slice
+    // at all: on a surface seen at a grazing angle a pixel to the side is far away.
+    seen.is_there = seen.offset_m.x * side > 0.0 && 4.0 * length(seen.offset_m) > seen.distance_m;
     return seen;
 }
 

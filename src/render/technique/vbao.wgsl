@@ -34,7 +34,7 @@ fn closed_sectors(slice: Slice, centre_m: vec3f, pixel: vec2i, side: f32, jitter
     var closed = 0u;
     for (var i = 0.0; i < params.steps; i += 1.0) {
         let step = step_px(slice, side, params.radius_m, i + jitter, params.steps, params.step_power);
-        let seen = seen_at(slice, centre_m, pixel, step);
+        let seen = seen_at(slice, side, centre_m, pixel, step);
         if !seen.is_there || seen.distance_m > params.radius_m {
             continue;
         }

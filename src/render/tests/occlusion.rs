@@ -9,7 +9,11 @@ use super::*;
 /// nothing. With the sign of appendix B as printed the top edge would darken, and the foot not.
 #[test]
 fn the_foot_of_a_wall_darkens_and_its_top_edge_does_not() {
-    for technique in ["crytek24", "blizzard24", "ray-march30"] {
+    let labels = TECHNIQUES
+        .iter()
+        .filter(|t| t.shader.is_some())
+        .map(|t| t.name);
+    for technique in labels {
         let request = request(technique);
         let frame = draw(&floor_and_wall([1.0; 3]), &request);
         let occlusion = frame.occlusion.unwrap();
@@ -106,11 +110,15 @@ fn degenerate_frames_stay_finite() {
 /// With no room to look round, nothing can be found in front.
 #[test]
 fn a_radius_of_nothing_is_open() {
-    for technique in ["blizzard24", "ray-march30"] {
+    for technique in TECHNIQUES
+        .iter()
+        .filter(|t| t.parameter("radius_m").is_some())
+    {
+        let technique = technique.name;
         let mut request = request(technique);
         request.occlusion.set("radius_m", 0.0).unwrap();
         let occlusion = draw(&floor_and_wall([1.0; 3]), &request).occlusion.unwrap();
-        assert!(occlusion.values.iter().all(|&k| k == 1.0), "{technique}");
+        assert!(occlusion.values.iter().all(|&k| k > 0.999), "{technique}");
     }
 }
 
