@@ -28,7 +28,7 @@ pub static HBAO: Technique = Technique {
             "bias_deg",
             "degrees",
             (0.0, 90.0),
-            0.0,
+            4.0,
             "what rises less than this above the surface does not occlude",
         ),
         STEP_POWER,

