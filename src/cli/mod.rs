@@ -10,6 +10,7 @@ mod order;
 mod output;
 mod render;
 mod run;
+mod techniques;
 
 use std::process::ExitCode;
 
@@ -36,6 +37,7 @@ enum Command {
     #[command(visible_alias = "import")]
     Render(render::RenderArgs),
     Model(model::ModelArgs),
+    Techniques(techniques::Techniques),
     Check(check::Check),
     Browse(browse::Browse),
     Run(Box<run::Run>),
@@ -111,6 +113,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Demo(args) => demo::run(&args, verbosity),
         Command::Render(args) => render::run(&args, verbosity),
         Command::Model(args) => model::run(&args, verbosity),
+        Command::Techniques(args) => techniques::run(&args),
         Command::Check(args) => check::run(&args, verbosity),
         Command::Browse(args) => browse::run(&args),
         Command::Run(args) => run::run(&args, verbosity),
