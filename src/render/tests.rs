@@ -19,3 +19,4 @@ mod light;
 mod occlusion;
 mod shadows;
 mod surfaces;
+mod two_band;
