@@ -18,5 +18,6 @@ mod environments;
 mod light;
 mod occlusion;
 mod shadows;
+mod ssdo;
 mod surfaces;
 mod two_band;

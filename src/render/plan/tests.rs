@@ -159,6 +159,8 @@ fn passes_run_after_what_they_read() {
         brightest("none"),
         brightest("ray-march30"),
         request("two-band"),
+        request("ssdo"),
+        brightest("ssdo"),
     ] {
         for facts in [PLAIN, FACTS] {
             let mut written = vec!["triangles", "textures", "proxies"];

@@ -12,6 +12,7 @@ mod ray_march;
 mod sampling;
 mod settings;
 mod slices;
+mod ssdo;
 mod two_band;
 mod vbao;
 
@@ -29,6 +30,7 @@ pub const TECHNIQUES: &[&Technique] = &[
     &gtao::GTAO,
     &vbao::VBAO,
     &two_band::TWO_BAND,
+    &ssdo::SSDO,
 ];
 
 /// What an estimate of occlusion weights directions by. Mixing them is a bias: the
