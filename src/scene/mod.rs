@@ -27,5 +27,5 @@ pub use geometry::{
     Geometry, Material, Mesh, ModelLights, Texture, TextureEncoding, TextureUse, Vertex, Wrap,
 };
 pub use lighting::{Ambient, Background, Cone, Lighting, PointLight, Sun, ToneMap};
-pub use proxies::{Sphere, SurfacePoints};
+pub use proxies::{Sphere, SurfacePoint, SurfacePoints};
 pub use source::GeometrySource;

@@ -46,8 +46,8 @@ pub static TWO_BAND: Technique = Technique {
         ),
         Parameter::choice(
             "overlap",
-            &["sum", "product"],
-            "how occluders add up: sum counts what overlaps twice, as the paper does; product takes them to lie at random",
+            &["product", "sum"],
+            "how occluders add up: product takes them to lie at random; sum, the paper's way, counts what overlaps twice",
         ),
     ],
     samples: Some("samples"),

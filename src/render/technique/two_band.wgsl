@@ -87,5 +87,5 @@ fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
         hidden += share;
         open *= 1.0 - share;
     }
-    return select(1.0 - hidden, open, params.overlap > 0.5);
+    return select(open, 1.0 - hidden, params.overlap > 0.5);
 }

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::*;
 use crate::render::plan::{FramePlan, GeometryFacts};
-use crate::scene::SurfacePoints;
+use crate::scene::{SurfacePoint, SurfacePoints};
 
 /// A ball of triangles.
 fn ball(centre_m: Vec3, radius_m: f32) -> Mesh {
@@ -51,7 +51,12 @@ fn floor_under_a_sphere(centre_m: Vec3, radius_m: f32) -> GpuScene {
     let floor = of_one_material(matte([0.5; 3]), vec![floor()]);
     let mut scene = renderer().upload(&floor).unwrap();
     scene.surface = SurfacePoints {
-        points_m: vec![centre_m - Vec3::Y * radius_m, centre_m + Vec3::Y * radius_m],
+        points: [-radius_m, radius_m]
+            .map(|up_m| SurfacePoint {
+                position_m: centre_m + Vec3::Y * up_m,
+                normal: Vec3::Y,
+            })
+            .to_vec(),
         area_each_m2: 2.0 * std::f64::consts::PI * f64::from(radius_m * radius_m),
     };
     scene
