@@ -10,6 +10,7 @@ mod buffers;
 pub mod device;
 mod environment;
 mod error;
+mod estimate;
 mod frame;
 mod light;
 mod material;

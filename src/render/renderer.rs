@@ -7,8 +7,8 @@ use super::readback::FloatImage;
 use super::shading::{self, Drawn, Shaded};
 use super::surfaces::{SunVisibility, SurfaceKey, Surfaces};
 use super::upload::GpuScene;
-use super::{Gpu, RenderError};
-use crate::scene::{Environment, Geometry};
+use super::{Gpu, RenderError, technique};
+use crate::scene::{Environment, Geometry, Sphere};
 use crate::stimulus::manifest::{PassRecord, Picture};
 
 /// Draws frames on one adapter.
@@ -70,6 +70,7 @@ impl Renderer {
             surfaces: None,
             visibility: None,
             environment: None,
+            proxies: None,
         }
     }
 }
@@ -84,6 +85,8 @@ pub struct View<'a> {
     visibility: Option<SunVisibility>,
     /// The environment's textures, and what they are for.
     environment: Option<(EnvironmentKey, EnvironmentTextures)>,
+    /// Spheres in place of the triangles, and how many of which seed they are.
+    proxies: Option<((usize, u64), Vec<[f32; 4]>)>,
 }
 
 /// The environment, and whether the skybox and reflections read it.
@@ -149,6 +152,7 @@ impl<'a> View<'a> {
         }
         self.sun_visibility(&filled, &plan, &mut passes);
         self.environment(&filled, &plan);
+        self.proxies(&filled);
         let (Some(surfaces), Some((_, environment))) = (&self.surfaces, &self.environment) else {
             return Err(RenderError::Device(String::from("no surfaces were drawn")));
         };
@@ -160,6 +164,7 @@ impl<'a> View<'a> {
             surfaces,
             visibility,
             environment,
+            proxies: (self.proxies.as_ref()).map_or(&[], |(_, spheres)| spheres.as_slice()),
         };
         let mut shaded = shading::shade(gpu, &filled, &plan, drawn, lights)?;
         passes.append(&mut shaded.passes);
@@ -187,6 +192,20 @@ impl<'a> View<'a> {
         {
             let textures = EnvironmentTextures::new(self.gpu, key.0.as_ref(), plan);
             self.environment = Some((key, textures));
+        }
+    }
+
+    /// Sees to it that the spheres are there that the technique reads, if it reads any.
+    fn proxies(&mut self, request: &FrameRequest) {
+        let settings = &request.occlusion;
+        if !settings.technique.inputs.proxies {
+            return;
+        }
+        let key = (settings.get(technique::PROXIES) as usize, request.seed);
+        if self.proxies.as_ref().is_none_or(|(kept, _)| *kept != key) {
+            let spheres = self.scene.surface.spheres(key.0, key.1);
+            let packed = |sphere: &Sphere| sphere.centre_m.extend(sphere.radius_m).to_array();
+            self.proxies = Some((key, spheres.iter().map(packed).collect()));
         }
     }
 

@@ -9,13 +9,22 @@ const PARTS: &[(&str, &str)] = &[
     ("grid", include_str!("shaders/common/grid.wgsl")),
     ("gather", include_str!("shaders/common/gather.wgsl")),
     ("octahedral", include_str!("shaders/common/octahedral.wgsl")),
+    ("screen", include_str!("shaders/common/screen.wgsl")),
     ("occlusion", include_str!("shaders/common/occlusion.wgsl")),
+    (
+        "directional",
+        include_str!("shaders/common/directional.wgsl"),
+    ),
     ("sampling", include_str!("shaders/material/sampling.wgsl")),
     ("display", include_str!("shaders/display.wgsl")),
     ("light", include_str!("shaders/lighting/light.wgsl")),
     ("place", include_str!("shaders/lighting/place.wgsl")),
     ("point", include_str!("shaders/lighting/point.wgsl")),
     ("brdf", include_str!("shaders/lighting/brdf.wgsl")),
+    (
+        "irradiance",
+        include_str!("shaders/lighting/irradiance.wgsl"),
+    ),
     ("diffuse", include_str!("shaders/lighting/diffuse.wgsl")),
     ("radiance", include_str!("shaders/lighting/radiance.wgsl")),
     (

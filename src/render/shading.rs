@@ -5,9 +5,12 @@ use wgpu::util::DeviceExt;
 
 use super::bindings::uniform_of;
 use super::environment::EnvironmentTextures;
+use super::estimate::Estimate;
 use super::frame::{Formats, FrameRequest, FrameUniform, normals_part};
 use super::light::{LightUniform, PointUniform};
-use super::pass::{self, BlurInputs, LightInputs, OcclusionInputs, UpsampleInputs};
+use super::pass::{
+    self, BlurInputs, LightInputs, OcclusionInputs, OcclusionTargets, UpsampleInputs,
+};
 use super::plan::{FramePlan, PassKind};
 use super::readback::{FloatImage, Readback};
 use super::recorder::Recorder;
@@ -48,8 +51,9 @@ pub(super) fn shade(
     }
     let image = Readback::record(gpu, &mut recorder.encoder, shading.image.texture());
     let occlusion = shading
-        .final_occlusion()
-        .map(|view| Readback::record(gpu, &mut recorder.encoder, view.texture()));
+        .occlusion
+        .as_ref()
+        .map(|found| Readback::record(gpu, &mut recorder.encoder, found.of_pixels().texture()));
     let passes = recorder.finish();
     Ok(Shaded {
         picture: Picture {
@@ -70,6 +74,8 @@ pub(super) struct Drawn<'a> {
     /// How much of the directional light arrives.
     pub visibility: Option<&'a wgpu::TextureView>,
     pub environment: &'a EnvironmentTextures,
+    /// Spheres in place of the triangles: centre and radius, world space, metres.
+    pub proxies: &'a [[f32; 4]],
 }
 
 /// What the passes after the surfaces share.
@@ -85,11 +91,9 @@ struct Shading<'a> {
     occlusion_frame: wgpu::Buffer,
     light: wgpu::Buffer,
     points: Option<wgpu::Buffer>,
-    occlusion: Option<wgpu::TextureView>,
-    /// Between the blur's two directions.
-    half_blurred: Option<wgpu::TextureView>,
-    /// Where occlusion is estimated at half resolution: what it comes to a pixel.
-    upsampled: Option<wgpu::TextureView>,
+    occlusion: Option<Estimate>,
+    /// What the ambient light changes by, where the technique says it by direction.
+    directional: Option<Estimate>,
     radiance: Option<wgpu::TextureView>,
     image: wgpu::TextureView,
 }
@@ -105,9 +109,7 @@ impl<'a> Shading<'a> {
         let frame = |size| uniform_of(&gpu.device, "frame", &[FrameUniform::new(request, size)]);
         let image_size = (request.width_px, request.height_px);
         let points: Vec<PointUniform> = request.lighting.points.iter().map(Into::into).collect();
-        let occlusion_format = Formats::of(request.precision).occlusion;
-        let on_plan =
-            |kind, label, size, format| plan.has(kind).then(|| target(gpu, label, size, format));
+        let estimate = |label, format| Estimate::new(gpu, request, plan, label, format);
         Self {
             gpu,
             request,
@@ -130,30 +132,13 @@ impl<'a> Shading<'a> {
                         usage: wgpu::BufferUsages::STORAGE,
                     })
             }),
-            occlusion: on_plan(
-                PassKind::Occlusion,
-                "occlusion",
-                request.occlusion_size(),
-                occlusion_format,
-            ),
-            half_blurred: on_plan(
-                PassKind::BlurRows,
-                "half blurred",
-                request.occlusion_size(),
-                occlusion_format,
-            ),
-            upsampled: on_plan(
-                PassKind::Upsample,
-                "occlusion of every pixel",
-                image_size,
-                occlusion_format,
-            ),
-            radiance: on_plan(
-                PassKind::Ambient,
-                "radiance",
-                request.shaded_size(),
-                Formats::RADIANCE,
-            ),
+            occlusion: estimate("occlusion", Formats::of(request.precision).occlusion),
+            directional: (request.occlusion.technique.inputs.light)
+                .then(|| estimate("directional light", Formats::RADIANCE))
+                .flatten(),
+            radiance: plan
+                .has(PassKind::Ambient)
+                .then(|| target(gpu, "radiance", request.shaded_size(), Formats::RADIANCE)),
             image: target(gpu, "image", image_size, Formats::OUTPUT),
         }
     }
@@ -164,10 +149,10 @@ impl<'a> Shading<'a> {
             PassKind::Geometry | PassKind::ShadowMap | PassKind::ShadowFilter => {}
             PassKind::Occlusion => recorder.pass(kind, |encoder| self.occlusion(encoder)),
             PassKind::BlurRows => recorder.pass(kind, |encoder| {
-                self.blur(encoder, [1, 0], &self.occlusion, &self.half_blurred);
+                self.blur(encoder, [1, 0]);
             }),
             PassKind::BlurColumns => recorder.pass(kind, |encoder| {
-                self.blur(encoder, [0, 1], &self.half_blurred, &self.occlusion);
+                self.blur(encoder, [0, 1]);
             }),
             PassKind::Upsample => recorder.pass(kind, |encoder| self.upsample(encoder)),
             PassKind::Shade => recorder.pass(kind, |encoder| {
@@ -192,7 +177,8 @@ impl<'a> Shading<'a> {
 
     fn occlusion(&self, encoder: &mut wgpu::CommandEncoder) {
         // Occlusion is planned with normals, always.
-        let (Some(normals), Some(target)) = (&self.drawn.surfaces.normals, &self.occlusion) else {
+        let (Some(normals), Some(occlusion)) = (&self.drawn.surfaces.normals, &self.occlusion)
+        else {
             return;
         };
         let inputs = OcclusionInputs {
@@ -200,54 +186,72 @@ impl<'a> Shading<'a> {
             depth_m: &self.drawn.surfaces.depth_m,
             normals,
             normals_part: self.normals_part,
+            albedo: &self.drawn.surfaces.albedo,
+            light: &self.light,
+            visibility: self.drawn.visibility,
+            proxies: self.drawn.proxies,
             seed: self.request.seed,
         };
-        pass::occlusion(self.gpu, encoder, &self.request.occlusion, &inputs, target);
+        let targets = OcclusionTargets {
+            occlusion: &occlusion.estimated,
+            directional: self.directional.as_ref().map(|found| &found.estimated),
+        };
+        pass::occlusion(
+            self.gpu,
+            encoder,
+            &self.request.occlusion,
+            &inputs,
+            &targets,
+        );
     }
 
-    fn blur(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        direction: [i32; 2],
-        from: &Option<wgpu::TextureView>,
-        to: &Option<wgpu::TextureView>,
-    ) {
-        let (Some(normals), Some(from), Some(to)) = (&self.drawn.surfaces.normals, from, to) else {
+    /// What the technique estimated.
+    fn estimates(&self) -> impl Iterator<Item = &Estimate> {
+        self.occlusion.iter().chain(&self.directional)
+    }
+
+    fn blur(&self, encoder: &mut wgpu::CommandEncoder, direction: [i32; 2]) {
+        let Some(normals) = &self.drawn.surfaces.normals else {
             return;
         };
-        let inputs = BlurInputs {
-            frame: &self.occlusion_frame,
-            depth_m: &self.drawn.surfaces.depth_m,
-            normals,
-            normals_part: self.normals_part,
-            occlusion: from,
-            radius_px: self.request.blur_radius_px,
-            plane_m: self.request.blur_plane_m,
-        };
-        pass::blur(self.gpu, encoder, &inputs, direction, to);
+        for estimate in self.estimates() {
+            let Some(half_blurred) = &estimate.half_blurred else {
+                continue;
+            };
+            let (from, to) = match direction {
+                [_, 0] => (&estimate.estimated, half_blurred),
+                _ => (half_blurred, &estimate.estimated),
+            };
+            let inputs = BlurInputs {
+                frame: &self.occlusion_frame,
+                depth_m: &self.drawn.surfaces.depth_m,
+                normals,
+                normals_part: self.normals_part,
+                occlusion: from,
+                radius_px: self.request.blur_radius_px,
+                plane_m: self.request.blur_plane_m,
+            };
+            pass::blur(self.gpu, encoder, &inputs, direction, to);
+        }
     }
 
     fn upsample(&self, encoder: &mut wgpu::CommandEncoder) {
-        let (Some(normals), Some(occlusion), Some(target)) = (
-            &self.drawn.surfaces.normals,
-            &self.occlusion,
-            &self.upsampled,
-        ) else {
+        let Some(normals) = &self.drawn.surfaces.normals else {
             return;
         };
-        let inputs = UpsampleInputs {
-            frame: &self.image_frame,
-            depth_m: &self.drawn.surfaces.depth_m,
-            normals,
-            normals_part: self.normals_part,
-            occlusion,
-        };
-        pass::upsample(self.gpu, encoder, &inputs, target);
-    }
-
-    /// The occlusion of every pixel, where there is any.
-    fn final_occlusion(&self) -> Option<&wgpu::TextureView> {
-        self.upsampled.as_ref().or(self.occlusion.as_ref())
+        for estimate in self.estimates() {
+            let Some(target) = &estimate.upsampled else {
+                continue;
+            };
+            let inputs = UpsampleInputs {
+                frame: &self.image_frame,
+                depth_m: &self.drawn.surfaces.depth_m,
+                normals,
+                normals_part: self.normals_part,
+                occlusion: &estimate.estimated,
+            };
+            pass::upsample(self.gpu, encoder, &inputs, target);
+        }
     }
 
     fn light_inputs(&self) -> LightInputs<'_> {
@@ -266,7 +270,8 @@ impl<'a> Shading<'a> {
             emission: self.drawn.surfaces.emission.as_ref(),
             is_baked: self.plan.reads_emission
                 && (self.request.baked_occlusion || self.request.all_effects),
-            occlusion: self.final_occlusion(),
+            occlusion: self.occlusion.as_ref().map(Estimate::of_pixels),
+            directional: self.directional.as_ref().map(Estimate::of_pixels),
             visibility: self.drawn.visibility,
             environment: self.drawn.environment,
             points: self.points.as_ref(),

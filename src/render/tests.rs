@@ -19,4 +19,6 @@ mod exact_occlusion;
 mod light;
 mod occlusion;
 mod shadows;
+mod ssdo;
 mod surfaces;
+mod two_band;

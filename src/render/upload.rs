@@ -7,7 +7,7 @@ use super::material::{GpuMaterial, MaterialUse};
 use super::mips::mip_chain;
 use super::plan::GeometryFacts;
 use super::{Gpu, RenderError};
-use crate::scene::{Geometry, Material, Texture, TextureEncoding, Wrap};
+use crate::scene::{Geometry, Material, SurfacePoints, Texture, TextureEncoding, Wrap};
 
 /// A scene's surfaces, ready to draw.
 pub struct GpuScene {
@@ -18,6 +18,8 @@ pub struct GpuScene {
     pub(super) wraps: Vec<[Wrap; 2]>,
     /// What the planner asks for.
     pub facts: GeometryFacts,
+    /// Where the surfaces are, for techniques that put spheres in their place.
+    pub(super) surface: SurfacePoints,
     /// Corners of the box round everything, metres; `None` for an empty scene.
     pub bounds_m: Option<(Vec3, Vec3)>,
 }
@@ -67,6 +69,7 @@ impl GpuScene {
                 .map(|texture| upload_texture(gpu, texture))
                 .collect(),
             facts: GeometryFacts::of(geometry),
+            surface: SurfacePoints::of(geometry),
             bounds_m: geometry.bounds_m(),
         })
     }

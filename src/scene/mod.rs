@@ -15,6 +15,7 @@ pub mod model;
 pub mod modelling;
 pub mod primitives;
 pub mod procedural;
+pub mod proxies;
 pub mod source;
 pub mod srgb;
 pub mod texture;
@@ -26,4 +27,5 @@ pub use geometry::{
     Geometry, Material, Mesh, ModelLights, Texture, TextureEncoding, TextureUse, Vertex, Wrap,
 };
 pub use lighting::{Ambient, Background, Cone, Lighting, PointLight, Sun, ToneMap};
+pub use proxies::{Sphere, SurfacePoint, SurfacePoints};
 pub use source::GeometrySource;

@@ -29,22 +29,39 @@ impl Fullscreen<'_> {
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::TextureView,
     ) {
-        let pipeline = self.pipeline(gpu, target.texture().format());
+        self.draw_to(gpu, encoder, &[target]);
+    }
+
+    /// The same for a shader that writes several targets at once.
+    pub(super) fn draw_to(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &[&wgpu::TextureView],
+    ) {
+        let formats: Vec<_> = targets.iter().map(|view| view.texture().format()).collect();
+        let pipeline = self.pipeline(gpu, &formats);
         let load = match self.onto {
             Onto::Cleared(colour) => wgpu::LoadOp::Clear(colour),
             Onto::Added => wgpu::LoadOp::Load,
         };
+        let attachments: Vec<_> = targets
+            .iter()
+            .map(|&view| {
+                Some(wgpu::RenderPassColorAttachment {
+                    view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load,
+                        store: wgpu::StoreOp::Store,
+                    },
+                })
+            })
+            .collect();
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(self.label),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: target,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load,
-                    store: wgpu::StoreOp::Store,
-                },
-            })],
+            color_attachments: &attachments,
             ..wgpu::RenderPassDescriptor::default()
         });
         pass.set_pipeline(&pipeline);
@@ -52,7 +69,7 @@ impl Fullscreen<'_> {
         pass.draw(0..3, 0..1);
     }
 
-    fn pipeline(&self, gpu: &Gpu, format: wgpu::TextureFormat) -> wgpu::RenderPipeline {
+    fn pipeline(&self, gpu: &Gpu, formats: &[wgpu::TextureFormat]) -> wgpu::RenderPipeline {
         let module = shader::module(&gpu.device, self.label, self.source, self.variants);
         let layout = gpu
             .device
@@ -66,17 +83,22 @@ impl Fullscreen<'_> {
             dst_factor: wgpu::BlendFactor::One,
             operation: wgpu::BlendOperation::Add,
         };
-        let target = wgpu::ColorTargetState {
-            format,
-            blend: match self.onto {
-                Onto::Cleared(_) => None,
-                Onto::Added => Some(wgpu::BlendState {
-                    color: sum,
-                    alpha: sum,
-                }),
-            },
-            write_mask: wgpu::ColorWrites::ALL,
-        };
+        let targets: Vec<_> = formats
+            .iter()
+            .map(|&format| {
+                Some(wgpu::ColorTargetState {
+                    format,
+                    blend: match self.onto {
+                        Onto::Cleared(_) => None,
+                        Onto::Added => Some(wgpu::BlendState {
+                            color: sum,
+                            alpha: sum,
+                        }),
+                    },
+                    write_mask: wgpu::ColorWrites::ALL,
+                })
+            })
+            .collect();
         gpu.device
             .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(self.label),
@@ -94,7 +116,7 @@ impl Fullscreen<'_> {
                     module: &module,
                     entry_point: Some(self.fragment),
                     compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    targets: &[Some(target)],
+                    targets: &targets,
                 }),
                 multiview_mask: None,
                 cache: None,

@@ -19,6 +19,8 @@ pub(in super::super) struct LightInputs<'a> {
     /// Whether the emission target's alpha is baked occlusion that counts.
     pub is_baked: bool,
     pub occlusion: Option<&'a wgpu::TextureView>,
+    /// What the ambient light changes by, where the technique says it by direction.
+    pub directional: Option<&'a wgpu::TextureView>,
     /// How much of the directional light arrives.
     pub visibility: Option<&'a wgpu::TextureView>,
     /// The environment; what no pass reads is absent.
@@ -55,9 +57,17 @@ impl<'a> LightInputs<'a> {
                 None => bindings,
             },
             _ => self
-                .reflections(kind, bindings)
-                .texture_if_any(5, self.occlusion)
+                .occlusion(kind, self.reflections(kind, bindings))
                 .texture_if_any(10, self.emission.filter(|_| self.is_baked)),
+        }
+    }
+
+    /// The mirror's light has one coefficient always: what is known by direction is known of
+    /// matte surfaces.
+    fn occlusion(&self, kind: PassKind, bindings: Bindings<'a>) -> Bindings<'a> {
+        match (kind, self.directional) {
+            (PassKind::Reflections, _) | (_, None) => bindings.texture_if_any(5, self.occlusion),
+            (_, Some(directional)) => bindings.texture(6, directional, false),
         }
     }
 
@@ -92,7 +102,7 @@ impl<'a> LightInputs<'a> {
     }
 
     /// The parts of the shaders that differ by what the frame has.
-    pub(super) fn parts(&self) -> [(&'static str, &'static str); 5] {
+    pub(super) fn parts(&self) -> [(&'static str, &'static str); 6] {
         [
             self.normals_part,
             (
@@ -101,6 +111,13 @@ impl<'a> LightInputs<'a> {
                     include_str!("../shaders/lighting/ambient_environment.wgsl")
                 } else {
                     include_str!("../shaders/lighting/ambient_constant.wgsl")
+                },
+            ),
+            (
+                "occluded_ambient",
+                match self.directional {
+                    None => include_str!("../shaders/lighting/occluded_alike.wgsl"),
+                    Some(_) => include_str!("../shaders/lighting/occluded_by_direction.wgsl"),
                 },
             ),
             (
@@ -118,15 +135,20 @@ impl<'a> LightInputs<'a> {
                     include_str!("../shaders/lighting/baked_none.wgsl")
                 },
             ),
-            (
-                "sun_visibility",
-                match self.visibility {
-                    None => include_str!("../shaders/lighting/sun_unshadowed.wgsl"),
-                    Some(_) => include_str!("../shaders/lighting/sun_shadowed.wgsl"),
-                },
-            ),
+            sun_visibility_part(self.visibility),
         ]
     }
+}
+
+/// The WGSL part `sun_visibility` for a frame.
+pub(super) fn sun_visibility_part(
+    visibility: Option<&wgpu::TextureView>,
+) -> (&'static str, &'static str) {
+    let text = match visibility {
+        None => include_str!("../shaders/lighting/sun_unshadowed.wgsl"),
+        Some(_) => include_str!("../shaders/lighting/sun_shadowed.wgsl"),
+    };
+    ("sun_visibility", text)
 }
 
 /// Adds one kind of light to `target`; the ambient pass, the first, clears it before.

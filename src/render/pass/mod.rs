@@ -13,7 +13,7 @@ mod upsample;
 pub(super) use blur::{BlurInputs, blur};
 pub(super) use geometry::{GeometryInputs, GeometryTargets, geometry, is_uncovered};
 pub(super) use light::{LightInputs, light};
-pub(super) use occlusion::{OcclusionInputs, occlusion};
+pub(super) use occlusion::{OcclusionInputs, OcclusionTargets, occlusion};
 pub(super) use output::{output, shade};
 pub(super) use shadow::{FilterInputs, shadow_filter, shadow_map};
 pub(super) use upsample::{UpsampleInputs, upsample};

@@ -6,25 +6,40 @@ use super::super::Gpu;
 use super::super::bindings::{Bindings, uniform_of};
 use super::super::technique::{self, Settings};
 use super::fullscreen::{Fullscreen, Onto};
+use super::light::sun_visibility_part;
 
-/// What every technique is given.
+/// What techniques are given, each what it declares.
 pub(in super::super) struct OcclusionInputs<'a> {
     pub frame: &'a wgpu::Buffer,
     pub depth_m: &'a wgpu::TextureView,
     pub normals: &'a wgpu::TextureView,
     pub normals_part: (&'static str, &'static str),
+    pub albedo: &'a wgpu::TextureView,
+    pub light: &'a wgpu::Buffer,
+    /// How much of the directional light arrives.
+    pub visibility: Option<&'a wgpu::TextureView>,
+    /// Spheres in place of the triangles: centre and radius, world space, metres.
+    pub proxies: &'a [[f32; 4]],
     pub seed: u64,
 }
 
-/// Runs the technique of `settings` into `target`; nothing for one without a shader.
+/// What a technique writes.
+pub(in super::super) struct OcclusionTargets<'a> {
+    pub occlusion: &'a wgpu::TextureView,
+    /// What the ambient light changes by, for a technique that reads light.
+    pub directional: Option<&'a wgpu::TextureView>,
+}
+
+/// Runs the technique of `settings`; nothing for one without a shader.
 pub(in super::super) fn occlusion(
     gpu: &Gpu,
     encoder: &mut wgpu::CommandEncoder,
     settings: &Settings,
     inputs: &OcclusionInputs,
-    target: &wgpu::TextureView,
+    targets: &OcclusionTargets,
 ) {
-    let Some(source) = settings.technique.shader else {
+    let technique = settings.technique;
+    let Some(source) = technique.shader else {
         return;
     };
     let params = uniform_of(&gpu.device, "occlusion parameters", &settings.uniform());
@@ -33,38 +48,57 @@ pub(in super::super) fn occlusion(
         "noise tile",
         &technique::noise_tile(inputs.seed),
     );
-    let mut points = (settings.technique.kernel)(settings, inputs.seed);
-    if points.is_empty() {
-        // A buffer cannot be empty; a technique without points reads none.
-        points.push([0.0; 4]);
-    }
-    let kernel = gpu
-        .device
-        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("occlusion kernel"),
-            contents: bytemuck::cast_slice(&points),
-            usage: wgpu::BufferUsages::STORAGE,
-        });
-    let bound = Bindings::default()
+    let points = (technique.kernel)(settings, inputs.seed);
+    let kernel = vectors(gpu, "occlusion kernel", &points);
+    let proxies = vectors(gpu, "proxies", inputs.proxies);
+    let mut bindings = Bindings::default()
         .uniform(0, inputs.frame)
         .texture(1, inputs.depth_m, false)
         .texture(2, inputs.normals, false)
-        .uniform(3, &params)
-        .storage(4, &kernel)
-        .uniform(5, &noise)
-        .build(&gpu.device, settings.technique.name);
+        .uniform(20, &params)
+        .storage(21, &kernel)
+        .uniform(22, &noise);
+    if technique.inputs.light {
+        bindings = bindings
+            .texture(3, inputs.albedo, false)
+            .uniform(4, inputs.light)
+            .texture_if_any(8, inputs.visibility);
+    }
+    if technique.inputs.proxies {
+        bindings = bindings.storage(23, &proxies);
+    }
+    let bound = bindings.build(&gpu.device, technique.name);
     let variants: Vec<_> = technique::SHARED_WGSL
         .iter()
         .copied()
-        .chain([inputs.normals_part])
+        .chain([inputs.normals_part, sun_visibility_part(inputs.visibility)])
+        .collect();
+    let targets: Vec<_> = [Some(targets.occlusion), targets.directional]
+        .into_iter()
+        .flatten()
         .collect();
     Fullscreen {
-        label: settings.technique.name,
+        label: technique.name,
         source,
         variants: &variants,
         fragment: "fs_occlusion",
         bound: &bound,
         onto: Onto::Cleared(wgpu::Color::TRANSPARENT),
     }
-    .draw(gpu, encoder, target);
+    .draw_to(gpu, encoder, &targets);
+}
+
+/// A storage buffer of vectors. It cannot be empty: without any there is one of nought.
+fn vectors(gpu: &Gpu, label: &str, vectors: &[[f32; 4]]) -> wgpu::Buffer {
+    let contents = if vectors.is_empty() {
+        &[[0.0; 4]]
+    } else {
+        vectors
+    };
+    gpu.device
+        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some(label),
+            contents: bytemuck::cast_slice(contents),
+            usage: wgpu::BufferUsages::STORAGE,
+        })
 }

@@ -138,22 +138,24 @@ impl Planner<'_> {
             return;
         };
         let size = self.request.occlusion_size();
-        let mut reads = vec!["linear depth"];
-        if self.request.occlusion.technique.inputs.normals {
-            reads.push("normals");
+        let reads = self.technique_reads();
+        let mut writes = vec!["occlusion"];
+        if self.request.occlusion.technique.inputs.light {
+            writes.push("directional light");
         }
-        self.pass(PassKind::Occlusion, size, &reads, &["occlusion"], because);
-        let reads = ["occlusion", "linear depth", "normals"];
+        self.pass(PassKind::Occlusion, size, &reads, &writes, because);
+        let mut reads = writes.clone();
+        reads.extend(["linear depth", "normals"]);
         let asked = self.blurs();
         if let Some(because) = self.runs("occlusion blur", asked) {
-            self.pass(PassKind::BlurRows, size, &reads, &["occlusion"], because);
+            self.pass(PassKind::BlurRows, size, &reads, &writes, because);
             let because = "the other direction of the blur";
-            self.pass(PassKind::BlurColumns, size, &reads, &["occlusion"], because);
+            self.pass(PassKind::BlurColumns, size, &reads, &writes, because);
         }
         if self.request.halves_occlusion() {
             let because = "the technique is asked for at half resolution";
             let size = self.image_size();
-            self.pass(PassKind::Upsample, size, &reads, &["occlusion"], because);
+            self.pass(PassKind::Upsample, size, &reads, &writes, because);
         } else {
             self.leave_out(
                 "occlusion upsampling",
@@ -162,19 +164,50 @@ impl Planner<'_> {
         }
     }
 
-    /// What a pass of the ambient term reads.
-    fn ambient_reads(&self) -> Vec<&'static str> {
+    /// What the technique reads; notes what of it there is none of.
+    fn technique_reads(&mut self) -> Vec<&'static str> {
+        let inputs = self.request.occlusion.technique.inputs;
+        let mut reads = vec!["linear depth"];
+        if inputs.normals {
+            reads.push("normals");
+        }
+        if inputs.light {
+            reads.push("albedo");
+            if self.plan.has(PassKind::ShadowFilter) {
+                reads.push("sun visibility");
+            }
+        }
+        if inputs.proxies {
+            match self.fits_proxies() {
+                Ok(_) => reads.push("proxies"),
+                Err(reason) => self.leave_out("proxies", reason),
+            }
+        }
+        reads
+    }
+
+    /// What a pass of light from all round reads; `occlusion` is the target that it is dimmed by.
+    fn ambient_reads(&self, occlusion: &'static str) -> Vec<&'static str> {
         let mut reads = vec!["albedo", "linear depth"];
         if self.plan.reads_normals {
             reads.push("normals");
         }
         if self.plan.has(PassKind::Occlusion) {
-            reads.push("occlusion");
+            reads.push(occlusion);
         }
         if self.bakes().is_ok() {
             reads.push("emission");
         }
         reads
+    }
+
+    /// The target that dims the ambient term.
+    fn dimming(&self) -> &'static str {
+        if self.request.occlusion.technique.inputs.light {
+            "directional light"
+        } else {
+            "occlusion"
+        }
     }
 
     fn shade(&mut self) {
@@ -197,7 +230,7 @@ impl Planner<'_> {
             "the lighting asks for none: nothing is brighter than white",
         );
         let because = format!("constant ambient light, {}", self.samples());
-        let reads = self.ambient_reads();
+        let reads = self.ambient_reads(self.dimming());
         self.pass(
             PassKind::Shade,
             self.image_size(),
@@ -213,7 +246,8 @@ impl Planner<'_> {
             Ambient::Constant(_) => "constant ambient light",
             Ambient::Environment => "irradiance of the environment",
         };
-        let ambient_reads = self.ambient_reads();
+        let ambient_reads = self.ambient_reads(self.dimming());
+        let reflection_reads = self.ambient_reads("occlusion");
         self.pass(
             PassKind::Ambient,
             size,
@@ -231,7 +265,7 @@ impl Planner<'_> {
                 PassKind::Reflections,
                 "reflections",
                 self.reflects(),
-                ambient_reads,
+                reflection_reads,
             ),
             (
                 PassKind::Emission,

@@ -1,6 +1,6 @@
 //! The rules: what calls for each effect, or why nothing does.
 
-use super::super::technique::Noise;
+use super::super::technique::{self, Noise};
 use super::planner::Planner;
 use crate::scene::{Ambient, Background, ToneMap};
 
@@ -11,6 +11,10 @@ impl Planner<'_> {
     pub(super) fn occludes(&self) -> Asked {
         let settings = &self.request.occlusion;
         match settings.technique.shader {
+            Some(_) if settings.technique.inputs.light => Ok(format!(
+                "the technique is `{}`: it says by direction and colour what the ambient light changes by",
+                settings.label
+            )),
             Some(_) => Ok(format!("the technique is `{}`", settings.label)),
             None => Err(format!("the technique is `{}`", settings.label)),
         }
@@ -26,6 +30,20 @@ impl Planner<'_> {
             radius => Ok(format!(
                 "the samples turn from pixel to pixel in a 4×4 tile; the scene asks for a blur of {radius} px"
             )),
+        }
+    }
+
+    /// Whether there is anything for a technique's proxies to stand for.
+    pub(super) fn fits_proxies(&self) -> Asked {
+        let settings = &self.request.occlusion;
+        let name = settings.technique.name;
+        let asked = settings.get(technique::PROXIES);
+        match (asked as usize, self.geometry.triangles) {
+            (0, _) => Err(format!("technique `{name}`: its parameter `proxies` is 0")),
+            (_, 0) => Err(format!(
+                "technique `{name}`, parameter `proxies`: found {asked}, but the scene has no triangles to fit spheres to"
+            )),
+            (count, _) => Ok(format!("{count} spheres in place of the scene's triangles")),
         }
     }
 

@@ -158,9 +158,12 @@ fn passes_run_after_what_they_read() {
         request("blizzard8"),
         brightest("none"),
         brightest("ray-march30"),
+        request("two-band"),
+        request("ssdo"),
+        brightest("ssdo"),
     ] {
         for facts in [PLAIN, FACTS] {
-            let mut written = vec!["triangles", "textures"];
+            let mut written = vec!["triangles", "textures", "proxies"];
             for pass in FramePlan::new(&request, &facts).passes {
                 for input in &pass.reads {
                     assert!(

@@ -19,10 +19,10 @@ struct Blur {
 @fragment
 fn fs_blur(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let centre = vec2i(position.xy);
-    let centre_value = textureLoad(occlusion_texture, centre, 0).x;
+    let centre_value = textureLoad(occlusion_texture, centre, 0);
     let centre_depth_m = textureLoad(depth_texture, occlusion_texel(centre), 0).x;
     if centre_depth_m >= frame.far_m {
-        return vec4f(centre_value);
+        return centre_value;
     }
     let centre_m = view_position(vec2f(centre) + occlusion_sample(), centre_depth_m);
     let world = world_normal(occlusion_texel(centre));
@@ -42,8 +42,8 @@ fn fs_blur(@builtin(position) position: vec4f) -> @location(0) vec4f {
         let off_plane = dot(tap_m - centre_m, normal) / blur.plane_m;
         let turned = max(dot(world, world_normal(texel)), 0.0);
         let weight = exp(-f32(step * step) * falloff - off_plane * off_plane) * turned * turned;
-        sum += weight * textureLoad(occlusion_texture, tap, 0).x;
+        sum += weight * textureLoad(occlusion_texture, tap, 0);
         total += weight;
     }
-    return vec4f(sum / total);
+    return sum / total;
 }

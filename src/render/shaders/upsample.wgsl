@@ -1,4 +1,4 @@
-// Occlusion of half resolution to one number a pixel.
+// A target of occlusion of half resolution to every pixel.
 //!use frame
 //!use fullscreen
 //!use normals
@@ -14,5 +14,5 @@ fn fs_upsample(@builtin(position) position: vec4f) -> @location(0) vec4f {
     }
     let normal = (frame.view * vec4f(geometric_normal(texel), 0.0)).xyz;
     let last = vec2i(textureDimensions(occlusion_texture)) - 1;
-    return vec4f(gathered_occlusion(texel, view_ray(texel) * depth_m, normal, 2 * frame.samples, last));
+    return gathered(occlusion_texture, texel, view_ray(texel) * depth_m, normal, 2 * frame.samples, last);
 }

@@ -9,10 +9,7 @@ pub static ALCHEMY: Technique = Technique {
     summary: "points on a spiral, each closing by its height above the surface over its squared distance",
     citation: "McGuire, Osman, Bukowski & Hennessy 2011",
     weighting: Weighting::Obscurance,
-    inputs: Inputs {
-        depth: true,
-        normals: true,
-    },
+    inputs: Inputs::SURFACES,
     noise: Noise::Hilbert,
     parameters: &[
         Parameter::count("samples", (1.0, 256.0), 1.0, 12.0, "samples a pixel"),

@@ -9,10 +9,7 @@ pub static BLIZZARD: Technique = Technique {
     summary: "points in the normal's hemisphere, each darkening by how far the surface there stands in front",
     citation: "Filion & McNaughton 2008; thesis 4.3.2, appendix B",
     weighting: Weighting::Empirical,
-    inputs: Inputs {
-        depth: true,
-        normals: true,
-    },
+    inputs: Inputs::SURFACES,
     noise: Noise::Tile,
     parameters: &[
         Parameter::count("samples", (1.0, 256.0), 1.0, 24.0, "samples a pixel"),

@@ -11,8 +11,8 @@ pub static CRYTEK: Technique = Technique {
     citation: "Mittring 2007; Kajalin 2009; thesis 4.3.1, appendix A",
     weighting: Weighting::Empirical,
     inputs: Inputs {
-        depth: true,
         normals: false,
+        ..Inputs::SURFACES
     },
     noise: Noise::Tile,
     parameters: &[

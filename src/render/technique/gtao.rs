@@ -9,10 +9,7 @@ pub static GTAO: Technique = Technique {
     summary: "the horizon to both sides of slices through the line of sight, and the cosine-weighted light between",
     citation: "Jimenez, Wu, Pesce & Jarabo 2016",
     weighting: Weighting::Cosine,
-    inputs: Inputs {
-        depth: true,
-        normals: true,
-    },
+    inputs: Inputs::SURFACES,
     noise: Noise::Hilbert,
     parameters: &[
         SLICES,

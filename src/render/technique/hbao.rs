@@ -9,10 +9,7 @@ pub static HBAO: Technique = Technique {
     summary: "the rise of the horizon along directions, each rise counted by how near it is",
     citation: "Bavoil, Sainz & Dimitrov 2008; Bavoil & Sainz 2009",
     weighting: Weighting::Uniform,
-    inputs: Inputs {
-        depth: true,
-        normals: true,
-    },
+    inputs: Inputs::SURFACES,
     noise: Noise::Hilbert,
     parameters: &[
         Parameter::count(

@@ -12,6 +12,8 @@ mod ray_march;
 mod sampling;
 mod settings;
 mod slices;
+mod ssdo;
+mod two_band;
 mod vbao;
 
 use crate::seed;
@@ -27,6 +29,8 @@ pub const TECHNIQUES: &[&Technique] = &[
     &hbao::HBAO,
     &gtao::GTAO,
     &vbao::VBAO,
+    &two_band::TWO_BAND,
+    &ssdo::SSDO,
 ];
 
 /// What an estimate of occlusion weights directions by. Mixing them is a bias: the
@@ -52,6 +56,29 @@ pub struct Inputs {
     pub depth: bool,
     /// World-space normals.
     pub normals: bool,
+    /// Spheres in place of the scene's triangles, seen or not: as many as the parameter
+    /// [`PROXIES`] says.
+    pub proxies: bool,
+    /// Colours, and the light that falls on them. A technique that reads them answers by direction and
+    /// colour, too: beside k_A it gives what the ambient light of a point changes by.
+    pub light: bool,
+}
+
+impl Inputs {
+    /// Nothing.
+    pub const NONE: Self = Self {
+        depth: false,
+        normals: false,
+        proxies: false,
+        light: false,
+    };
+
+    /// Depth and normals.
+    pub const SURFACES: Self = Self {
+        depth: true,
+        normals: true,
+        ..Self::NONE
+    };
 }
 
 /// What of an estimate differs from pixel to pixel on one even surface.
@@ -236,6 +263,9 @@ impl Technique {
 /// Name of the parameter that every technique with a pass has: at which resolution it runs.
 pub(super) const RESOLUTION: &str = "resolution";
 
+/// Name of the parameter of a technique that reads [`Inputs::proxies`]: how many there are.
+pub(super) const PROXIES: &str = "proxies";
+
 /// What every technique that runs a pass can be set to beside its own parameters.
 const COMMON: &[Parameter] = &[Parameter::choice(
     RESOLUTION,
@@ -265,6 +295,7 @@ pub(super) const SHARED_WGSL: &[(&str, &str)] = &[
     ("thesis_falloff", include_str!("thesis_falloff.wgsl")),
     ("spatial_noise", include_str!("spatial_noise.wgsl")),
     ("slices", include_str!("slices.wgsl")),
+    ("proxies", include_str!("proxies.wgsl")),
 ];
 
 #[cfg(test)]

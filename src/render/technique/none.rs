@@ -8,10 +8,7 @@ pub static NONE: Technique = Technique {
     summary: "no occlusion: the ambient light reaches everything, and no occlusion pass runs",
     citation: "thesis 5.3 (the control image)",
     weighting: Weighting::None,
-    inputs: Inputs {
-        depth: false,
-        normals: false,
-    },
+    inputs: Inputs::NONE,
     noise: Noise::None,
     parameters: &[],
     samples: None,

@@ -10,10 +10,7 @@ pub static RAY_MARCH: Technique = Technique {
     summary: "as blizzard, but walks along each offset and stops at the first surface in front",
     citation: "Bavoil & Sainz 2009 (the idea); thesis 4.3.3, appendix C",
     weighting: Weighting::Empirical,
-    inputs: Inputs {
-        depth: true,
-        normals: true,
-    },
+    inputs: Inputs::SURFACES,
     noise: Noise::Tile,
     parameters: &[
         Parameter::count("directions", (1.0, 256.0), 1.0, 30.0, "directions a pixel"),

@@ -9,10 +9,7 @@ pub static VBAO: Technique = Technique {
     summary: "32 sectors a slice, each open or closed: light passes behind thin things",
     citation: "Therrien, Levesque & Gilet 2023",
     weighting: Weighting::Cosine,
-    inputs: Inputs {
-        depth: true,
-        normals: true,
-    },
+    inputs: Inputs::SURFACES,
     noise: Noise::Hilbert,
     parameters: &[
         SLICES,

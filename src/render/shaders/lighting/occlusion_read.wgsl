@@ -7,6 +7,6 @@
 fn computed_occlusion(point: Point) -> f32 {
     let normal = (frame.view * vec4f(point.geometric_normal, 0.0)).xyz;
     let last = vec2i(frame.image_px) - 1;
-    let gathered = gathered_occlusion(point.texel, point.view_m, normal, frame.samples, last);
-    return 1.0 + light.occlusion_weight * (gathered - 1.0);
+    let found = gathered(occlusion_texture, point.texel, point.view_m, normal, frame.samples, last).x;
+    return 1.0 + light.occlusion_weight * (found - 1.0);
 }

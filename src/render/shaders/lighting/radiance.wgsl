@@ -1,13 +1,5 @@
-// The ambient term of a point, thesis eq. 5: k_A c_amb L_A. Occlusion stands here, before
-// what comes from all round, and nowhere else.
-//!use point
-//!use computed_occlusion
-//!use baked_occlusion
-//!use ambient_term
-
-fn occluded_ambient(point: Point) -> vec3f {
-    return computed_occlusion(point) * baked_occlusion(point) * ambient_radiance(point);
-}
+// The ambient term of a point. Occlusion stands here, before what comes from all round, and nowhere else.
+//!use occluded_ambient
 
 // To the half floats that radiance is stored in, so that shading at once and shading by
 // passes give the same bytes.
