@@ -10,6 +10,7 @@ mod order;
 mod output;
 mod render;
 mod run;
+mod truth;
 
 use std::process::ExitCode;
 
@@ -35,6 +36,7 @@ enum Command {
     Demo(demo::Demo),
     #[command(visible_alias = "import")]
     Render(render::RenderArgs),
+    Truth(truth::Truth),
     Model(model::ModelArgs),
     Check(check::Check),
     Browse(browse::Browse),
@@ -110,6 +112,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
     match cli.command {
         Command::Demo(args) => demo::run(&args, verbosity),
         Command::Render(args) => render::run(&args, verbosity),
+        Command::Truth(args) => truth::run(&args, verbosity),
         Command::Model(args) => model::run(&args, verbosity),
         Command::Check(args) => check::run(&args, verbosity),
         Command::Browse(args) => browse::run(&args),

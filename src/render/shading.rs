@@ -12,7 +12,7 @@ use super::plan::{FramePlan, PassKind};
 use super::readback::{FloatImage, Readback};
 use super::recorder::Recorder;
 use super::surfaces::Surfaces;
-use super::targets::target;
+use super::targets::{handed_occlusion, target};
 use super::{Gpu, RenderError};
 use crate::scene::{Ambient, Background};
 use crate::stimulus::manifest::{PassRecord, Picture};
@@ -123,12 +123,15 @@ impl<'a> Shading<'a> {
                         usage: wgpu::BufferUsages::STORAGE,
                     })
             }),
-            occlusion: on_plan(
-                PassKind::Occlusion,
-                "occlusion",
-                image_size,
-                occlusion_format,
-            ),
+            occlusion: match request.handed_image() {
+                Some(image) => Some(handed_occlusion(gpu, image, request.precision)),
+                None => on_plan(
+                    PassKind::Occlusion,
+                    "occlusion",
+                    image_size,
+                    occlusion_format,
+                ),
+            },
             half_blurred: on_plan(
                 PassKind::BlurRows,
                 "half blurred",

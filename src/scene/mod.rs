@@ -18,6 +18,7 @@ pub mod procedural;
 pub mod source;
 pub mod srgb;
 pub mod texture;
+pub mod visible;
 
 pub use camera::Camera;
 pub use config::{SceneConfig, SceneError};
@@ -27,3 +28,4 @@ pub use geometry::{
 };
 pub use lighting::{Ambient, Background, Cone, Lighting, PointLight, Sun, ToneMap};
 pub use source::GeometrySource;
+pub use visible::VisibleSurfaces;

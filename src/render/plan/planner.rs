@@ -142,6 +142,9 @@ impl Planner<'_> {
         if self.request.occlusion.technique.inputs.normals {
             reads.push("normals");
         }
+        if self.request.occlusion.technique.is_handed_in() {
+            reads.push("triangles");
+        }
         self.pass(PassKind::Occlusion, size, &reads, &["occlusion"], because);
         let asked = self.blurs();
         let Some(because) = self.runs("occlusion blur", asked) else {

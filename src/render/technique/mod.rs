@@ -6,6 +6,7 @@ mod blizzard;
 mod crytek;
 mod none;
 mod ray_march;
+mod ray_traced;
 mod sampling;
 mod settings;
 
@@ -18,6 +19,7 @@ pub const TECHNIQUES: &[&Technique] = &[
     &crytek::CRYTEK,
     &blizzard::BLIZZARD,
     &ray_march::RAY_MARCH,
+    &ray_traced::RAY_TRACED,
 ];
 
 /// What an estimate of occlusion weights directions by. Mixing them is a bias: the
@@ -110,6 +112,19 @@ pub struct Technique {
 }
 
 impl Technique {
+    /// Whether it hides any light at all.
+    #[must_use]
+    pub fn occludes(&self) -> bool {
+        self.shader.is_some() || self.is_handed_in()
+    }
+
+    /// Whether its occlusion is computed outside of the renderer and handed in: it estimates
+    /// something, and no shader does.
+    #[must_use]
+    pub fn is_handed_in(&self) -> bool {
+        self.shader.is_none() && self.weighting != Weighting::None
+    }
+
     /// The parameter of that name.
     #[must_use]
     pub fn parameter(&self, name: &str) -> Option<&'static Parameter> {
