@@ -219,10 +219,10 @@ impl Line {
     /// Where it leaves the picture.
     fn leaves(&self, size_px: [i64; 2]) -> f64 {
         let mut end = f64::INFINITY;
-        for axis in 0..2 {
+        for (axis, &size_px) in size_px.iter().enumerate() {
             let (from, step) = (self.place[axis], self.step[axis]);
             let border = if step > 0.0 {
-                (size_px[axis] - 1) as f64
+                size_px as f64 - 1.0
             } else {
                 0.0
             };

@@ -8,15 +8,7 @@ use obvhs::bvh2::builder::build_bvh2_from_tris;
 use obvhs::triangle::Triangle;
 
 use super::node::{CHILDREN, LEAF, Leaf, Node, TRIANGLES};
-
-/// A finished tree; the first node is its root.
-#[derive(Debug, Default)]
-pub(super) struct Tree {
-    pub nodes: Vec<Node>,
-    pub leaves: Vec<Leaf>,
-    /// Children that may wait at once while a ray goes through it.
-    pub most_waiting: usize,
-}
+use super::tree::Tree;
 
 /// Builds a tree over triangles with finite corners; `names` is what each is called.
 pub(super) fn build(corners: &[[Vec3; 3]], names: &[u32]) -> Tree {

@@ -13,7 +13,8 @@ fn strewn(count: usize) -> Geometry {
     );
     let blank = geometry.meshes[0].vertices[0];
     let mesh = &mut geometry.meshes[0];
-    (mesh.vertices.clear(), mesh.indices.clear());
+    mesh.vertices.clear();
+    mesh.indices.clear();
     for index in 0..count {
         let centre = vector() * 4.0;
         let size = if index % 50 == 0 { 2.0 } else { 0.2 };
