@@ -14,8 +14,8 @@ pub(super) struct Tree {
 }
 
 thread_local! {
-    /// Children that wait while a ray goes through a tree, for trees deeper than usual.
-    static DEEP: RefCell<Vec<(u32, f32)>> = const { RefCell::new(Vec::new()) };
+    /// Children that wait, and where the ray enters each, for trees deeper than usual.
+    static DEEP: RefCell<(Vec<u32>, Vec<f32>)> = const { RefCell::new((Vec::new(), Vec::new())) };
 }
 
 impl Tree {
@@ -33,11 +33,15 @@ impl Tree {
             return None;
         }
         if self.most_waiting <= USUAL {
-            return self.walk_with::<ANY>(ray, reach, is_solid, &mut [(0, 0.0); USUAL]);
+            // Two lists: for any hit the second is never read, and the compiler drops it.
+            let (mut waiting, mut entered) = ([0; USUAL], [0.0; USUAL]);
+            return self.walk_with::<ANY>(ray, reach, is_solid, &mut waiting, &mut entered);
         }
-        DEEP.with_borrow_mut(|waiting| {
-            waiting.resize(waiting.len().max(self.most_waiting), (0, 0.0));
-            self.walk_with::<ANY>(ray, reach, is_solid, waiting)
+        DEEP.with_borrow_mut(|(waiting, entered)| {
+            let room = waiting.len().max(self.most_waiting);
+            waiting.resize(room, 0);
+            entered.resize(room, 0.0);
+            self.walk_with::<ANY>(ray, reach, is_solid, waiting, entered)
         })
     }
 
@@ -47,16 +51,17 @@ impl Tree {
         ray: &Ray,
         mut reach: f32,
         is_solid: &impl Fn(u32, [f32; 2]) -> bool,
-        waiting: &mut [(u32, f32)],
+        waiting: &mut [u32],
+        entered: &mut [f32],
     ) -> Option<(f32, u32, usize)> {
         let mut found = None;
         // The root is node 0.
         let mut count = 1;
-        waiting[0] = (0, 0.0);
+        waiting[0] = 0;
         while count > 0 {
             count -= 1;
-            let (child, entered) = waiting[count];
-            if !ANY && entered > reach {
+            let child = waiting[count];
+            if !ANY && entered[count] > reach {
                 continue;
             }
             if child & LEAF != 0 {
@@ -72,18 +77,21 @@ impl Tree {
             }
             let node = &self.nodes[child as usize];
             let (mut mask, enter) = node.hits(ray, reach);
+            let enter = enter.to_array();
             let first = count;
             while mask != 0 {
                 let place = mask.trailing_zeros() as usize;
                 mask &= mask - 1;
-                let entry = (node.child[place], enter[place]);
                 let mut at = count;
                 // Nearest last, to be taken first.
-                while !ANY && at > first && waiting[at - 1].1 < entry.1 {
-                    waiting[at] = waiting[at - 1];
+                while !ANY && at > first && entered[at - 1] < enter[place] {
+                    (waiting[at], entered[at]) = (waiting[at - 1], entered[at - 1]);
                     at -= 1;
                 }
-                waiting[at] = entry;
+                waiting[at] = node.child[place];
+                if !ANY {
+                    entered[at] = enter[place];
+                }
                 count += 1;
             }
         }
@@ -105,11 +113,15 @@ fn hit_in(
     while mask != 0 {
         let place = mask.trailing_zeros() as usize;
         mask &= mask - 1;
-        let scale = 1.0 / hits.determinant[place];
-        let distance = hits.distance[place] * scale;
+        let scale = 1.0 / hits.determinant.as_array()[place];
+        let distance = hits.distance.as_array()[place] * scale;
         let triangle = leaf.triangle[place];
         let is_nearer = nearest.is_none_or(|(known, _)| distance < known);
-        let weights = hits.weights.map(|weight| weight[place] * scale);
+        let [weight_1, weight_2] = &hits.weights;
+        let weights = [
+            weight_1.as_array()[place] * scale,
+            weight_2.as_array()[place] * scale,
+        ];
         if is_nearer && is_solid(triangle, weights) {
             nearest = Some((distance, place));
         }
