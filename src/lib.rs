@@ -17,6 +17,8 @@ pub mod seed;
 
 pub mod scene;
 
+pub mod reference;
+
 pub mod render;
 
 pub mod stimulus;

@@ -11,6 +11,7 @@ mod output;
 mod render;
 mod run;
 mod techniques;
+mod truth;
 
 use std::process::ExitCode;
 
@@ -36,6 +37,7 @@ enum Command {
     Demo(demo::Demo),
     #[command(visible_alias = "import")]
     Render(render::RenderArgs),
+    Truth(truth::Truth),
     Model(model::ModelArgs),
     Techniques(techniques::Techniques),
     Check(check::Check),
@@ -112,6 +114,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
     match cli.command {
         Command::Demo(args) => demo::run(&args, verbosity),
         Command::Render(args) => render::run(&args, verbosity),
+        Command::Truth(args) => truth::run(&args, verbosity),
         Command::Model(args) => model::run(&args, verbosity),
         Command::Techniques(args) => techniques::run(&args),
         Command::Check(args) => check::run(&args, verbosity),

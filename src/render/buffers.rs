@@ -186,7 +186,7 @@ impl DepthScale {
 }
 
 /// The world-space shading normal of a texel, as the surfaces store it.
-fn stored_normal(bytes: &[u8], texel: usize, precision: Precision) -> Vec3 {
+pub(super) fn stored_normal(bytes: &[u8], texel: usize, precision: Precision) -> Vec3 {
     match precision {
         Precision::Thesis => {
             let stored = &bytes[4 * texel..4 * texel + 3];
@@ -203,7 +203,7 @@ fn stored_normal(bytes: &[u8], texel: usize, precision: Precision) -> Vec3 {
 }
 
 /// The CPU's twin of `octahedral_decode` in WGSL (Meyer et al. 2010).
-fn octahedral_decode(encoded: Vec2) -> Vec3 {
+pub(super) fn octahedral_decode(encoded: Vec2) -> Vec3 {
     let z = 1.0 - encoded.x.abs() - encoded.y.abs();
     let xy = if z >= 0.0 {
         encoded

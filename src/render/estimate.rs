@@ -1,9 +1,10 @@
 //! What a technique estimates, on its way to every pixel: estimated, blurred, upsampled.
 
 use super::Gpu;
-use super::frame::FrameRequest;
+use super::frame::{FrameRequest, Precision};
 use super::plan::{FramePlan, PassKind};
-use super::targets::target;
+use super::readback::FloatImage;
+use super::targets::{handed_occlusion, target};
 
 /// The textures of one quantity that a technique estimates; what no pass writes is not made.
 pub(super) struct Estimate {
@@ -32,6 +33,15 @@ impl Estimate {
             upsampled: (plan.has(PassKind::Upsample))
                 .then(|| target(gpu, label, image_size, format)),
         })
+    }
+
+    /// An estimate that was made outside of the renderer, of every pixel and as it shall be.
+    pub(super) fn handed_in(gpu: &Gpu, image: &FloatImage, precision: Precision) -> Self {
+        Self {
+            estimated: handed_occlusion(gpu, image, precision),
+            half_blurred: None,
+            upsampled: None,
+        }
     }
 
     /// What every pixel has.

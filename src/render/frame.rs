@@ -1,8 +1,12 @@
 //! What is asked of the renderer for one image, and the numbers its shaders are given.
 
+use std::sync::Arc;
+
 use glam::{Mat4, Vec3};
 
+use super::RenderError;
 use super::plan::FramePlan;
+use super::readback::FloatImage;
 use super::technique::{self, Settings, TECHNIQUES};
 use crate::scene::{Camera, Lighting, ModelLights, PointLight, SceneConfig, Sun};
 
@@ -34,6 +38,9 @@ pub struct FrameRequest {
     pub lighting: Lighting,
     /// What occludes the ambient light.
     pub occlusion: Settings,
+    /// The occlusion itself, at the image's size, for a technique that is computed outside of
+    /// the renderer.
+    pub handed_occlusion: Option<Arc<FloatImage>>,
     /// Half width of the occlusion blur, pixels; 0 for none.
     pub blur_radius_px: u32,
     /// Distance from a plane at which a blur tap counts 1/e, metres.
@@ -66,6 +73,7 @@ impl FrameRequest {
             camera: scene.camera,
             lighting: lighting.clone(),
             occlusion,
+            handed_occlusion: None,
             blur_radius_px: scene.occlusion.blur_radius_px,
             blur_plane_m: scene.occlusion.blur_plane_m,
             precision: Precision::Full,
@@ -97,7 +105,7 @@ impl FrameRequest {
                 .iter()
                 .find(|technique| technique.shader.is_some())
         };
-        if let (None, Some(technique)) = (self.occlusion.technique.shader, shaded()) {
+        if let (false, Some(technique)) = (self.occlusion.technique.occludes(), shaded()) {
             filled.occlusion = Settings::defaults(technique, technique.name);
         }
         let lighting = &mut filled.lighting;
@@ -114,6 +122,33 @@ impl FrameRequest {
             });
         }
         filled
+    }
+
+    /// The occlusion that was handed in, for a technique that takes it so.
+    pub(super) fn handed_image(&self) -> Option<&FloatImage> {
+        let image = self.handed_occlusion.as_deref()?;
+        self.occlusion.technique.is_handed_in().then_some(image)
+    }
+
+    /// Refuses a technique whose occlusion is to be handed in and was not, or not whole.
+    ///
+    /// # Errors
+    /// [`RenderError::Request`].
+    pub(super) fn check_handed_image(&self) -> Result<(), RenderError> {
+        let wrong = |what: &str| {
+            let label = &self.occlusion.label;
+            let message = format!(
+                "the occlusion of `{label}` is computed outside of the renderer and handed in; {what}"
+            );
+            Err(RenderError::Request(message))
+        };
+        match self.handed_image() {
+            None if self.occlusion.technique.is_handed_in() => wrong("none was"),
+            Some(image) if (image.width_px, image.height_px) != (self.width_px, self.height_px) => {
+                wrong("the one that was is of another size than the image")
+            }
+            _ => Ok(()),
+        }
     }
 
     pub(super) fn aspect(&self) -> f32 {

@@ -35,7 +35,7 @@ impl LightUniform {
         let lighting = &request.lighting;
         let mut uniform: Self = bytemuck::Zeroable::zeroed();
         let weight = |asked: bool| f32::from(u8::from(asked));
-        uniform.occlusion_weight = weight(request.occlusion.technique.shader.is_some());
+        uniform.occlusion_weight = weight(request.occlusion.technique.occludes());
         uniform.reflection_weight = weight(lighting.reflections);
         uniform.sky_weight = weight(lighting.background == Background::Environment);
         if let Some(environment) = &lighting.environment {

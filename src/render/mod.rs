@@ -28,6 +28,7 @@ mod targets;
 pub mod technique;
 mod timestamps;
 mod upload;
+mod visible;
 
 pub use buffers::Buffer;
 pub use device::Gpu;

@@ -116,13 +116,40 @@ impl<'a> View<'a> {
         self.surfaces.as_ref()
     }
 
-    /// Draws, and turns what the driver says into an error.
+    /// Draws an image and keeps what can be read of it.
     pub(super) fn guarded(&mut self, request: &FrameRequest) -> Result<Shaded, RenderError> {
+        request.check_handed_image()?;
+        self.watched(request, |view| view.draw(request))
+    }
+
+    /// The surfaces that an image of this request shows, drawn if they are not there yet, with
+    /// their normals.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub(super) fn surfaces_of(&mut self, request: &FrameRequest) -> Result<&Surfaces, RenderError> {
+        self.watched(request, |view| {
+            let facts = view.scene.facts.clone();
+            let filled = request.with_model_lights(&facts.lights).filled_in();
+            let plan = FramePlan::new(&request.with_model_lights(&facts.lights), &facts);
+            view.surfaces(&filled, &plan);
+            Ok(())
+        })?;
+        (self.surfaces.as_ref())
+            .ok_or_else(|| RenderError::Device(String::from("no surfaces were drawn")))
+    }
+
+    /// Draws something, and turns what the driver says into an error.
+    fn watched<T>(
+        &mut self,
+        request: &FrameRequest,
+        draw: impl FnOnce(&mut Self) -> Result<T, RenderError>,
+    ) -> Result<T, RenderError> {
         check_size(self.gpu, request)?;
         let device = &self.gpu.device;
         let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let frame = self.draw(request);
+        let drawn = draw(self);
         let errors = [
             pollster::block_on(validation.pop()),
             pollster::block_on(memory.pop()),
@@ -134,7 +161,7 @@ impl<'a> View<'a> {
                 self.visibility = None;
                 Err(RenderError::Device(error.to_string()))
             }
-            None => frame,
+            None => drawn,
         }
     }
 

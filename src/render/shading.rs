@@ -132,7 +132,10 @@ impl<'a> Shading<'a> {
                         usage: wgpu::BufferUsages::STORAGE,
                     })
             }),
-            occlusion: estimate("occlusion", Formats::of(request.precision).occlusion),
+            occlusion: match request.handed_image() {
+                Some(image) => Some(Estimate::handed_in(gpu, image, request.precision)),
+                None => estimate("occlusion", Formats::of(request.precision).occlusion),
+            },
             directional: (request.occlusion.technique.inputs.light)
                 .then(|| estimate("directional light", Formats::RADIANCE))
                 .flatten(),

@@ -37,6 +37,7 @@ pub(super) fn request(technique: &str) -> FrameRequest {
             tone_map: ToneMap::None,
         },
         occlusion: Settings::from_label(technique).unwrap(),
+        handed_occlusion: None,
         blur_radius_px: 4,
         blur_plane_m: 0.05,
         precision: Precision::Full,

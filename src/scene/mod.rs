@@ -19,6 +19,7 @@ pub mod proxies;
 pub mod source;
 pub mod srgb;
 pub mod texture;
+pub mod visible;
 
 pub use camera::Camera;
 pub use config::{SceneConfig, SceneError};
@@ -29,3 +30,4 @@ pub use geometry::{
 pub use lighting::{Ambient, Background, Cone, Lighting, PointLight, Sun, ToneMap};
 pub use proxies::{Sphere, SurfacePoint, SurfacePoints};
 pub use source::GeometrySource;
+pub use visible::VisibleSurfaces;

@@ -10,6 +10,7 @@ pub mod pair_check;
 pub mod produce;
 pub mod set;
 pub mod sheet;
+pub mod truth;
 
 pub use manifest::{ImageRecord, Manifest, PairRecord, Picture, StimulusError};
 pub use set::StimulusSet;

@@ -9,6 +9,7 @@ use super::loaded::LoadedImage;
 use super::manifest::{self, AdapterRecord, ImageRecord, Manifest, PairRecord, StimulusError};
 use super::pair_check;
 use super::set::{ImageSource, LoadedPair, RenderedPair, SetCondition, StimulusSet};
+use super::truth::SceneTracer;
 use crate::digest;
 use crate::render::technique::Settings;
 use crate::render::{RenderError, Renderer, View};
@@ -105,7 +106,11 @@ pub fn produce(
     })
 }
 
-fn choose<'a>(
+/// The condition `only`, or all.
+///
+/// # Errors
+/// [`ProduceError::NoSuchCondition`].
+pub(super) fn choose<'a>(
     set: &'a StimulusSet,
     only: Option<&str>,
 ) -> Result<Vec<&'a SetCondition>, ProduceError> {
@@ -259,11 +264,16 @@ impl Made {
         progress(&format!("scene {}", scene.id));
         let geometry = scene.geometry.load()?;
         let surfaces = renderer.upload(&geometry)?;
+        let is_traced = |technique: &Settings| technique.technique.is_handed_in();
+        let tracer = (conditions.iter())
+            .any(|(_, pair)| is_traced(&pair.first) || is_traced(&pair.second))
+            .then(|| SceneTracer::new(&geometry));
         drop(geometry);
         let mut producer = Producer {
             set,
             folder,
             view: renderer.view(&surfaces),
+            tracer,
             drawn: BTreeMap::new(),
         };
         for (condition, pair) in conditions {
@@ -282,6 +292,8 @@ struct Producer<'a> {
     set: &'a StimulusSet,
     folder: &'a Path,
     view: View<'a>,
+    /// Where a condition asks for what it finds.
+    tracer: Option<SceneTracer>,
     /// Images by lighting and technique, as PNG bytes.
     drawn: BTreeMap<String, (Vec<u8>, ImageRecord)>,
 }
@@ -338,7 +350,11 @@ impl Producer<'_> {
         technique: &Settings,
         path: &Path,
     ) -> Result<(Vec<u8>, ImageRecord), ProduceError> {
-        let frame = self.view.render(&self.set.request(pair, technique))?;
+        let mut request = self.set.request(pair, technique);
+        if let Some(tracer) = &mut self.tracer {
+            request = tracer.complete(&mut self.view, request)?;
+        }
+        let frame = self.view.render(&request)?;
         let bytes = files::encode_png(path, &frame.picture)?;
         let record = ImageRecord {
             file: PathBuf::new(),

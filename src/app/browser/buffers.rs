@@ -7,6 +7,7 @@ use crate::scene::Geometry;
 use crate::stimulus::StimulusSet;
 use crate::stimulus::manifest::{PairRecord, Picture};
 use crate::stimulus::set::RenderedPair;
+use crate::stimulus::truth::SceneTracer;
 
 /// Draws one image of a rendered condition again, on this machine's adapter: its buffers.
 ///
@@ -22,11 +23,15 @@ pub fn redraw(
     let surfaces = renderer
         .upload(&geometry)
         .map_err(|error| error.to_string())?;
+    let mut view = renderer.view(&surfaces);
+    let mut request = set.request(pair, technique);
+    if technique.technique.is_handed_in() {
+        request = SceneTracer::new(&geometry)
+            .complete(&mut view, request)
+            .map_err(|error| error.to_string())?;
+    }
     drop(geometry);
-    renderer
-        .view(&surfaces)
-        .buffers(&set.request(pair, technique))
-        .map_err(|error| error.to_string())
+    view.buffers(&request).map_err(|error| error.to_string())
 }
 
 /// The frame plans of a rendered pair, as text, with the times on record.

@@ -171,6 +171,9 @@ impl Planner<'_> {
         if inputs.normals {
             reads.push("normals");
         }
+        if self.request.occlusion.technique.is_handed_in() {
+            reads.push("triangles");
+        }
         if inputs.light {
             reads.push("albedo");
             if self.plan.has(PassKind::ShadowFilter) {

@@ -10,13 +10,17 @@ pub(super) type Asked = Result<String, String>;
 impl Planner<'_> {
     pub(super) fn occludes(&self) -> Asked {
         let settings = &self.request.occlusion;
+        let technique = format!("the technique is `{}`", settings.label);
+        if settings.technique.is_handed_in() {
+            return Ok(technique + ": computed by ray tracing on the processor, handed in");
+        }
         match settings.technique.shader {
-            Some(_) if settings.technique.inputs.light => Ok(format!(
-                "the technique is `{}`: it says by direction and colour what the ambient light changes by",
-                settings.label
-            )),
-            Some(_) => Ok(format!("the technique is `{}`", settings.label)),
-            None => Err(format!("the technique is `{}`", settings.label)),
+            Some(_) if settings.technique.inputs.light => {
+                Ok(technique
+                    + ": it says by direction and colour what the ambient light changes by")
+            }
+            Some(_) => Ok(technique),
+            None => Err(technique),
         }
     }
 

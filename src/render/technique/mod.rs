@@ -9,6 +9,7 @@ mod gtao;
 mod hbao;
 mod none;
 mod ray_march;
+mod ray_traced;
 mod sampling;
 mod settings;
 mod slices;
@@ -31,6 +32,7 @@ pub const TECHNIQUES: &[&Technique] = &[
     &vbao::VBAO,
     &two_band::TWO_BAND,
     &ssdo::SSDO,
+    &ray_traced::RAY_TRACED,
 ];
 
 /// What an estimate of occlusion weights directions by. Mixing them is a bias: the
@@ -250,6 +252,19 @@ impl Technique {
             None => &[],
         };
         self.parameters.iter().chain(common)
+    }
+
+    /// Whether it hides any light at all.
+    #[must_use]
+    pub fn occludes(&self) -> bool {
+        self.shader.is_some() || self.is_handed_in()
+    }
+
+    /// Whether its occlusion is computed outside of the renderer and handed in: it estimates
+    /// something, and no shader does.
+    #[must_use]
+    pub fn is_handed_in(&self) -> bool {
+        self.shader.is_none() && self.weighting != Weighting::None
     }
 
     /// The parameter of that name.

@@ -1,0 +1,24 @@
+//! The truth that approximations are measured against: occlusion by rays through the scene,
+//! on all processor cores, each value with its standard error.
+//!
+//! [`RayTraced`] asks the scene's triangles, [`ScreenSpace`] asks a depth buffer, with the same
+//! directions and the same weighting: what the second lacks against the first is information
+//! that a depth buffer does not hold. [`estimate`] asks either at every visible point.
+
+pub mod bvh;
+pub mod directions;
+mod error;
+mod occlusion;
+mod ray_traced;
+mod screen_space;
+pub mod sobol;
+
+pub use bvh::SceneBvh;
+pub use directions::Weighting;
+pub use error::ReferenceError;
+pub use occlusion::{Estimates, OcclusionSettings, Surroundings, estimate};
+pub use ray_traced::{RayTraced, SurfacePoint};
+pub use screen_space::ScreenSpace;
+
+#[cfg(test)]
+mod tests;

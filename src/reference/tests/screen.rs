@@ -1,0 +1,117 @@
+//! The depth buffer's answer.
+
+use glam::Vec3;
+
+use super::super::ScreenSpace;
+use super::shapes::{beside_wall, floor, geometry, seen, wall};
+use super::*;
+use crate::scene::Camera;
+
+fn camera(position_m: Vec3, target_m: Vec3) -> Camera {
+    Camera {
+        position_m,
+        target_m,
+        vertical_fov_rad: 0.9,
+        near_m: 0.1,
+        far_m: 500.0,
+    }
+}
+
+#[test]
+fn a_plane_is_open_in_its_own_picture() {
+    let bvh = SceneBvh::new(&geometry(vec![floor(100.0)]));
+    let above = camera(Vec3::new(0.3, 3.0, 4.0), Vec3::new(0.0, 0.0, -1.0));
+    let surfaces = seen(&bvh, above, (64, 48));
+    for d_max_m in [None, Some(2.0)] {
+        let settings = OcclusionSettings {
+            d_max_m,
+            weighting: Weighting::Uniform,
+            ..OcclusionSettings::new(1)
+        };
+        let found = estimate(&ScreenSpace::new(&surfaces), &settings, &|_| {}).unwrap();
+        // Rounding of depths to 6e-8 against a pixel's size of 0.02 of them: 1e-5 rad.
+        let least = found.occlusion.iter().copied().fold(1.0, f32::min);
+        assert!(least > 0.999, "{d_max_m:?}: {least}");
+    }
+}
+
+/// A floor and a wall, both whole in the picture: the ray-traced answer, but for the wall's
+/// edge, which the picture knows to half a sample (0.5 %, or 0.003 of the occlusion).
+#[test]
+fn a_wall_in_the_picture_is_the_wall() {
+    let scene = geometry(vec![floor(100.0), wall(1.0, 0.7)]);
+    let bvh = SceneBvh::new(&scene);
+    let before = camera(Vec3::new(0.0, 2.2, 3.5), Vec3::new(0.0, 0.3, 0.2));
+    let surfaces = seen(&bvh, before, (480, 400));
+    let settings = OcclusionSettings {
+        error: 5e-4,
+        ..OcclusionSettings::new(1)
+    };
+    let field = ScreenSpace::new(&surfaces);
+    let projection = surfaces.projection();
+    let mut tested = 0;
+    for pixel in (0..surfaces.len()).step_by(499) {
+        let depth_m = f64::from(surfaces.depth_m[pixel]);
+        let at = projection.world_point(pixel, depth_m);
+        if at.y.abs() > 1e-3 || at.x.abs() > 0.02 + 0.3 || !(0.2..1.5).contains(&at.z) {
+            continue;
+        }
+        let one = OnePoint(&field, pixel);
+        let found = estimate(&one, &settings, &|_| {}).unwrap().occlusion[0];
+        // Off the middle the wall is two of different halves.
+        let halves = [1.0 - at.x, 1.0 + at.x].map(|half| beside_wall(at.z, half, 0.7));
+        let exact = halves.iter().sum::<f64>() / 2.0;
+        assert_near(found, exact, 5e-3, &format!("{at}"));
+        tested += 1;
+    }
+    assert!(tested >= 10, "{tested}");
+}
+
+/// Distances along a ray are those of the world.
+#[test]
+fn what_is_met_is_as_far_as_it_is() {
+    let bvh = SceneBvh::new(&geometry(vec![floor(100.0), wall(3.0, 2.0)]));
+    let before = camera(Vec3::new(0.0, 2.2, 5.5), Vec3::new(0.0, 0.5, 0.0));
+    let surfaces = seen(&bvh, before, (320, 240));
+    let field = ScreenSpace::new(&surfaces);
+    let pixel = 170 * 320 + 160;
+    let (start, normal) = field.start(pixel).unwrap();
+    assert!(normal.y > 0.999);
+    let depth_m = f64::from(surfaces.depth_m[pixel]);
+    let at = surfaces.projection().world_point(pixel, depth_m);
+    for direction in [Vec3::new(0.3, 0.2, -1.0), Vec3::new(-0.2, 0.02, -0.5)] {
+        let direction = direction.normalize();
+        let exact = at.z / f64::from(-direction.z);
+        let found = field.nearest_m(&start, direction, 100.0).unwrap();
+        assert_near(found, exact, 0.01, "distance");
+        assert!(field.is_blocked(&start, direction, found + 0.01));
+        assert!(!field.is_blocked(&start, direction, found - 0.01));
+    }
+    assert!(!field.is_blocked(&start, Vec3::new(0.0, 3.0, -1.0).normalize(), f32::INFINITY));
+    assert!(!field.is_blocked(&start, Vec3::new(0.0, 0.1, 1.0).normalize(), f32::INFINITY));
+}
+
+/// One pixel of a field.
+struct OnePoint<'a>(&'a ScreenSpace<'a>, usize);
+
+use super::super::{Surroundings, screen_space::PixelStart};
+
+impl Surroundings for OnePoint<'_> {
+    type Start = PixelStart;
+
+    fn len(&self) -> usize {
+        1
+    }
+
+    fn start(&self, _: usize) -> Option<(PixelStart, Vec3)> {
+        self.0.start(self.1)
+    }
+
+    fn is_blocked(&self, start: &PixelStart, direction: Vec3, reach_m: f32) -> bool {
+        self.0.is_blocked(start, direction, reach_m)
+    }
+
+    fn nearest_m(&self, start: &PixelStart, direction: Vec3, reach_m: f32) -> Option<f32> {
+        self.0.nearest_m(start, direction, reach_m)
+    }
+}
