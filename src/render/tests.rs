@@ -15,6 +15,7 @@ use crate::scene::{
 mod display;
 mod effects;
 mod environments;
+mod handed;
 mod light;
 mod occlusion;
 mod shadows;
