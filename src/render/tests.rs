@@ -16,6 +16,7 @@ mod display;
 mod effects;
 mod environments;
 mod exact_occlusion;
+mod handed;
 mod light;
 mod occlusion;
 mod shadows;

@@ -1,7 +1,7 @@
 //! Eight boxes and four triangles at once: the two tests that a ray spends its time in.
 
 use glam::Vec3;
-use wide::{CmpGe, CmpGt, CmpLe, f32x4, f32x8};
+use wide::{f32x4, f32x8};
 
 /// Children of a node.
 pub(super) const CHILDREN: usize = 8;
