@@ -91,25 +91,13 @@ impl SurfacePoints {
             }
         }
         assign(&self.points, &centres, turn_m2, &mut nearest);
-        let clusters = self.clusters(&nearest, count);
-        let mut reach_m = vec![0.0_f32; count];
+        let mut clusters = self.clusters(&nearest, count);
         for (point, &cluster) in self.points.iter().zip(&nearest) {
-            let mean = clusters[cluster].mean().unwrap_or(*point);
-            let distance_m = point.position_m.distance(mean.position_m);
-            reach_m[cluster] = reach_m[cluster].max(distance_m);
+            clusters[cluster].measure(point);
         }
         clusters
             .iter()
-            .zip(reach_m)
-            .filter_map(|(cluster, reach_m)| {
-                let area_m2 = cluster.points as f64 * self.area_each_m2;
-                let radius_m = (area_m2 / (4.0 * std::f64::consts::PI)).sqrt() as f32;
-                Some(Sphere {
-                    centre_m: cluster.mean()?.position_m,
-                    // A crumpled surface is larger than the space it fills.
-                    radius_m: radius_m.min(reach_m),
-                })
-            })
+            .filter_map(|cluster| cluster.sphere(self.area_each_m2))
             .collect()
     }
 
@@ -124,12 +112,17 @@ impl SurfacePoints {
     }
 }
 
-/// The points nearest to one centre, summed.
+/// The points nearest to one centre.
 #[derive(Debug, Clone, Default)]
 struct Cluster {
+    /// Sums over the points.
     positions_m: DVec3,
     normals: DVec3,
     points: usize,
+    /// The farthest of them from their mean, metres.
+    reach_m: f32,
+    /// How far the mean stands before the most hidden of them, along its normal, metres.
+    before_m: f32,
 }
 
 impl Cluster {
@@ -137,6 +130,30 @@ impl Cluster {
         (self.points > 0).then(|| SurfacePoint {
             position_m: (self.positions_m / self.points as f64).as_vec3(),
             normal: (self.normals / self.points as f64).as_vec3(),
+        })
+    }
+
+    /// Measures the cluster by one of its points; the sums are complete.
+    fn measure(&mut self, point: &SurfacePoint) {
+        let Some(mean) = self.mean() else {
+            return;
+        };
+        let offset_m = mean.position_m - point.position_m;
+        self.reach_m = self.reach_m.max(offset_m.length());
+        self.before_m = self.before_m.max(offset_m.dot(point.normal));
+    }
+
+    fn sphere(&self, area_each_m2: f64) -> Option<Sphere> {
+        let mean = self.mean()?;
+        let area_m2 = self.points as f64 * area_each_m2;
+        let radius_m = (area_m2 / (4.0 * std::f64::consts::PI)).sqrt() as f32;
+        // A crumpled surface is larger than the space it fills.
+        let radius_m = radius_m.min(self.reach_m);
+        Some(Sphere {
+            // Behind all that faces with the mean: a moulding on a wall must not lift the wall's
+            // sphere before the wall. What faces all round has no mean to speak of.
+            centre_m: mean.position_m - mean.normal * self.before_m.min(radius_m),
+            radius_m,
         })
     }
 }
@@ -267,6 +284,22 @@ mod tests {
             let before_m = sphere.centre_m.x.min(sphere.centre_m.y);
             assert!(before_m < 0.02, "{sphere:?}");
         }
+    }
+
+    /// A few low steps on a floor leave its spheres in it.
+    #[test]
+    fn no_sphere_stands_before_a_floor_with_steps() {
+        let mut geometry = floor();
+        for step in 0..6 {
+            let low_m = Vec3::new(0.5 + 1.2 * step as f32, 0.0, -2.0);
+            let body = cuboid("step", low_m, low_m + Vec3::new(0.5, 0.3, 0.5));
+            geometry.meshes.push(body);
+        }
+        let spheres = SurfacePoints::of(&geometry).spheres(24, 3);
+        for sphere in spheres.iter().filter(|sphere| sphere.radius_m > 0.3) {
+            assert!(sphere.centre_m.y < 0.05, "{sphere:?}");
+        }
+        assert!(spheres.iter().any(|sphere| sphere.radius_m > 0.3));
     }
 
     #[test]
