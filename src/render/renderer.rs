@@ -85,9 +85,12 @@ pub struct View<'a> {
     visibility: Option<SunVisibility>,
     /// The environment's textures, and what they are for.
     environment: Option<(EnvironmentKey, EnvironmentTextures)>,
-    /// Spheres in place of the triangles, and how many of which seed they are.
-    proxies: Option<((usize, u64), Vec<[f32; 4]>)>,
+    /// Spheres in place of the triangles (centre and radius, metres), and what they are for.
+    proxies: Option<(ProxyKey, Vec<[f32; 4]>)>,
 }
+
+/// Number of spheres, and the seed of their fit.
+type ProxyKey = (usize, u64);
 
 /// The environment, and whether the skybox and reflections read it.
 type EnvironmentKey = (Option<Environment>, [bool; 2]);

@@ -91,25 +91,13 @@ impl SurfacePoints {
             }
         }
         assign(&self.points, &centres, turn_m2, &mut nearest);
-        let clusters = self.clusters(&nearest, count);
-        let mut reach_m = vec![0.0_f32; count];
+        let mut clusters = self.clusters(&nearest, count);
         for (point, &cluster) in self.points.iter().zip(&nearest) {
-            let mean = clusters[cluster].mean().unwrap_or(*point);
-            let distance_m = point.position_m.distance(mean.position_m);
-            reach_m[cluster] = reach_m[cluster].max(distance_m);
+            clusters[cluster].measure(point);
         }
         clusters
             .iter()
-            .zip(reach_m)
-            .filter_map(|(cluster, reach_m)| {
-                let area_m2 = cluster.points as f64 * self.area_each_m2;
-                let radius_m = (area_m2 / (4.0 * std::f64::consts::PI)).sqrt() as f32;
-                Some(Sphere {
-                    centre_m: cluster.mean()?.position_m,
-                    // A crumpled surface is larger than the space it fills.
-                    radius_m: radius_m.min(reach_m),
-                })
-            })
+            .filter_map(|cluster| cluster.sphere(self.area_each_m2))
             .collect()
     }
 
@@ -124,12 +112,17 @@ impl SurfacePoints {
     }
 }
 
-/// The points nearest to one centre, summed.
+/// The points nearest to one centre.
 #[derive(Debug, Clone, Default)]
 struct Cluster {
+    /// Sums over the points.
     positions_m: DVec3,
     normals: DVec3,
     points: usize,
+    /// The farthest of them from their mean, metres.
+    reach_m: f32,
+    /// How far the mean stands before the most hidden of them, along its normal, metres.
+    before_m: f32,
 }
 
 impl Cluster {
@@ -137,6 +130,30 @@ impl Cluster {
         (self.points > 0).then(|| SurfacePoint {
             position_m: (self.positions_m / self.points as f64).as_vec3(),
             normal: (self.normals / self.points as f64).as_vec3(),
+        })
+    }
+
+    /// Measures the cluster by one of its points; the sums are complete.
+    fn measure(&mut self, point: &SurfacePoint) {
+        let Some(mean) = self.mean() else {
+            return;
+        };
+        let offset_m = mean.position_m - point.position_m;
+        self.reach_m = self.reach_m.max(offset_m.length());
+        self.before_m = self.before_m.max(offset_m.dot(point.normal));
+    }
+
+    fn sphere(&self, area_each_m2: f64) -> Option<Sphere> {
+        let mean = self.mean()?;
+        let area_m2 = self.points as f64 * area_each_m2;
+        let radius_m = (area_m2 / (4.0 * std::f64::consts::PI)).sqrt() as f32;
+        // A crumpled surface is larger than the space it fills.
+        let radius_m = radius_m.min(self.reach_m);
+        Some(Sphere {
+            // Behind all that faces with the mean: a moulding on a wall must not lift the wall's
+            // sphere before the wall. What faces all round has no mean to speak of.
+            centre_m: mean.position_m - mean.normal * self.before_m.min(radius_m),
+            radius_m,
         })
     }
 }
@@ -267,6 +284,20 @@ mod tests {
             let before_m = sphere.centre_m.x.min(sphere.centre_m.y);
             assert!(before_m < 0.02, "{sphere:?}");
         }
+    }
+
+    /// A block on a floor lifts their mean by 0.12 m; the sphere stays in the floor, which is most of what
+    /// faces up.
+    #[test]
+    fn a_block_does_not_lift_a_floors_sphere() {
+        let mut geometry = floor();
+        let low_m = Vec3::new(3.0, 0.0, -2.5);
+        let block = cuboid("block", low_m, low_m + Vec3::new(2.0, 1.0, 1.0));
+        geometry.meshes.push(block);
+        let [sphere] = SurfacePoints::of(&geometry).spheres(1, 3)[..] else {
+            panic!("one sphere was asked for");
+        };
+        assert!((0.0..0.04).contains(&sphere.centre_m.y), "{sphere:?}");
     }
 
     #[test]

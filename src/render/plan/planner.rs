@@ -134,11 +134,20 @@ impl Planner<'_> {
 
     fn occlusion(&mut self) {
         let asked = self.occludes();
-        let Some(because) = self.runs("occlusion", asked) else {
+        let Some(mut because) = self.runs("occlusion", asked) else {
             return;
         };
         let size = self.request.occlusion_size();
-        let reads = self.technique_reads();
+        let mut reads = self.technique_reads();
+        if self.request.occlusion.technique.inputs.proxies {
+            match self.fits_proxies() {
+                Ok(proxies) => {
+                    reads.push("proxies");
+                    because += &format!("; it reads {proxies}");
+                }
+                Err(reason) => self.leave_out("proxies", reason),
+            }
+        }
         let mut writes = vec!["occlusion"];
         if self.request.occlusion.technique.inputs.light {
             writes.push("directional light");
@@ -164,8 +173,8 @@ impl Planner<'_> {
         }
     }
 
-    /// What the technique reads; notes what of it there is none of.
-    fn technique_reads(&mut self) -> Vec<&'static str> {
+    /// What of the frame the technique reads.
+    fn technique_reads(&self) -> Vec<&'static str> {
         let inputs = self.request.occlusion.technique.inputs;
         let mut reads = vec!["linear depth"];
         if inputs.normals {
@@ -178,12 +187,6 @@ impl Planner<'_> {
             reads.push("albedo");
             if self.plan.has(PassKind::ShadowFilter) {
                 reads.push("sun visibility");
-            }
-        }
-        if inputs.proxies {
-            match self.fits_proxies() {
-                Ok(_) => reads.push("proxies"),
-                Err(reason) => self.leave_out("proxies", reason),
             }
         }
         reads

@@ -26,13 +26,15 @@ impl Planner<'_> {
 
     pub(super) fn blurs(&self) -> Asked {
         self.occludes()?;
-        if self.request.occlusion.technique.noise == Noise::None {
-            return Err(String::from("the technique's estimate has no noise"));
-        }
+        let noise = match self.request.occlusion.technique.noise {
+            Noise::None => return Err(String::from("the technique's estimate has no noise")),
+            Noise::Tile => "in a 4×4 tile",
+            Noise::Hilbert => "along a Hilbert curve",
+        };
         match self.request.blur_radius_px {
             0 => Err(String::from("the scene's blur_radius_px is 0")),
             radius => Ok(format!(
-                "the samples turn from pixel to pixel in a 4×4 tile; the scene asks for a blur of {radius} px"
+                "the samples turn from pixel to pixel {noise}; the scene asks for a blur of {radius} px"
             )),
         }
     }

@@ -91,7 +91,6 @@ fn sunlit(point: Point) -> vec3f {
 
 fn directional(pixel: vec2i, depth_m: f32) -> Directional {
     let centre_m = view_position(sample_px(pixel), depth_m);
-    let world = world_normal(occlusion_texel(pixel));
     let normal = view_normal(pixel);
     let across = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 0.0, 1.0), abs(normal.x) > 0.7);
     let right = normalize(across - normal * dot(across, normal));

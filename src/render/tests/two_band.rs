@@ -54,7 +54,7 @@ fn floor_under_a_sphere(centre_m: Vec3, radius_m: f32) -> GpuScene {
         points: [-radius_m, radius_m]
             .map(|up_m| SurfacePoint {
                 position_m: centre_m + Vec3::Y * up_m,
-                normal: Vec3::Y,
+                normal: Vec3::Y * up_m.signum(),
             })
             .to_vec(),
         area_each_m2: 2.0 * std::f64::consts::PI * f64::from(radius_m * radius_m),
