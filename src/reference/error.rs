@@ -2,7 +2,7 @@
 
 /// Settings that make no sense.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{setting}: found {found}, allowed is {allowed}")]
+#[error("setting `{setting}`: found {found}, allowed is {allowed}")]
 pub struct ReferenceError {
     /// The setting.
     pub setting: &'static str,
