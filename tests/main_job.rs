@@ -261,7 +261,7 @@ fn explain_draws_nothing() {
     };
     let parts = |plan: &'_ str| -> (bool, bool) {
         let (runs, left_out) = plan.split_once("left out:").unwrap();
-        let names = |part: &str| part.contains("─ occlusion ");
+        let names = |part: &str| part.contains("─ occlusion  ");
         (names(runs), names(left_out))
     };
     assert_eq!(parts(none), (false, true), "{plan}");
