@@ -1,0 +1,163 @@
+//! The truth through the binary: `greyfield truth`, and `ray-traced` as a technique of a set.
+#![allow(clippy::unwrap_used)]
+
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+/// A wall of 1 m on a floor of 20 × 20 m.
+const MODEL: &str = "
+v -10 0 10\nv 10 0 10\nv 10 0 -10\nv -10 0 -10
+v -10 0 0\nv 10 0 0\nv 10 1 0\nv -10 1 0
+f 1 2 3 4\nf 5 6 7 8
+";
+
+const SCENE: &str = r#"
+title = "A wall"
+
+[geometry]
+file = "wall.obj"
+
+[camera]
+position_m = [0, 1.5, 4]
+target_m = [0, 0.5, 0]
+vertical_fov_deg = 40
+near_m = 0.1
+far_m = 50
+
+[lighting.low]
+ambient = { constant = [1, 1, 1] }
+background = { colour = [1, 1, 1] }
+"#;
+
+const SET: &str = r#"
+id = "walls"
+title = "Against the truth"
+seed = 7
+width_px = 64
+height_px = 48
+
+[[condition]]
+id = "wall"
+scene = "wall.toml"
+lighting = "low"
+hypothesis = "H1"
+first = "gtao18"
+second = { technique = "ray-traced", error = 0.01 }
+"#;
+
+struct Study {
+    dir: tempfile::TempDir,
+}
+
+impl Study {
+    fn new() -> Self {
+        let dir = tempfile::tempdir().unwrap();
+        for (name, text) in [("wall.obj", MODEL), ("wall.toml", SCENE), ("set.toml", SET)] {
+            std::fs::write(dir.path().join(name), text).unwrap();
+        }
+        Self { dir }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.dir.path().join(name)
+    }
+
+    fn greyfield(&self, args: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_greyfield"))
+            .current_dir(self.dir.path())
+            .args(args)
+            .output()
+            .unwrap()
+    }
+
+    fn succeed(&self, args: &[&str]) {
+        let output = self.greyfield(args);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{args:?}: {message}");
+    }
+
+    /// The occlusion image of a run, levels of 16 bits.
+    fn occlusion(
+        &self,
+        folder: &str,
+        kind: &str,
+    ) -> image::ImageBuffer<image::Luma<u16>, Vec<u16>> {
+        let path = self.path(folder).join(format!("wall--{kind}.png"));
+        image::open(path).unwrap().into_luma16()
+    }
+}
+
+/// Both answers are on disk with their record, and agree where the picture shows all that
+/// hides: at the foot of the wall half the light is gone, on its upper part next to none.
+#[test]
+fn the_truth_is_what_a_wall_beside_a_floor_must_be() {
+    let study = Study::new();
+    study.succeed(&[
+        "truth",
+        "set.toml",
+        "--error",
+        "0.01",
+        "--screen-space",
+        "--out",
+        "truth",
+    ]);
+    let record = std::fs::read_to_string(study.path("truth/truth.json")).unwrap();
+    let record: serde_json::Value = serde_json::from_str(&record).unwrap();
+    let images = record["images"].as_array().unwrap();
+    assert_eq!(images.len(), 2);
+    for image in images {
+        // At the limit of rays a pixel may stay above; the mean does not.
+        assert!(image["mean_standard_error"].as_f64().unwrap() <= 0.01);
+    }
+    for kind in ["ray-traced", "screen-space"] {
+        let occlusion = study.occlusion("truth", kind);
+        assert_eq!(occlusion.dimensions(), (64, 48));
+        let column = |y: u32| f64::from(occlusion.get_pixel(32, y)[0]) / 65535.0;
+        // The wall's foot, seen along the middle column: the darkest is about one half.
+        let darkest = (0..48).map(column).fold(1.0, f64::min);
+        assert!((0.45..0.62).contains(&darkest), "{kind}: {darkest}");
+        // The lowest row shows the floor 2 m before the wall: (1 + cos β)/2 = 0.947.
+        let near = column(47);
+        assert!((near - 0.95).abs() < 0.04, "{kind}: {near}");
+    }
+}
+
+/// Same config, seed and adapter: same bytes, whatever the number of threads; and the image of
+/// the technique differs from another's.
+#[test]
+fn ray_traced_stimuli_are_the_same_every_time() {
+    let study = Study::new();
+    let images = |folder: &str| {
+        ["gtao18", "ray-traced"].map(|label| {
+            std::fs::read(study.path(folder).join(format!("wall--{label}.png"))).unwrap()
+        })
+    };
+    study.succeed(&["render", "set.toml", "--out", "first"]);
+    let second = Command::new(env!("CARGO_BIN_EXE_greyfield"))
+        .current_dir(study.dir.path())
+        .env("RAYON_NUM_THREADS", "1")
+        .args(["render", "set.toml", "--out", "second"])
+        .output()
+        .unwrap();
+    assert!(second.status.success());
+    assert_eq!(images("first"), images("second"));
+    let [gtao, traced] = images("first");
+    assert_ne!(gtao, traced);
+}
+
+#[test]
+fn bad_settings_are_one_message() {
+    let study = Study::new();
+    for (args, named) in [
+        (["--error", "7"], "error"),
+        (["--distance-m", "0"], "distance"),
+        (["--only", "nowhere"], "nowhere"),
+    ] {
+        let output = study.greyfield(&["truth", "set.toml", "--out", "truth", args[0], args[1]]);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains(named), "{message}");
+        assert!(!message.contains("panicked"), "{message}");
+        assert!(!study.path("truth").exists(), "{args:?} left something");
+    }
+}
