@@ -22,4 +22,5 @@ mod occlusion;
 mod shadows;
 mod ssdo;
 mod surfaces;
+mod twins;
 mod two_band;
