@@ -6,6 +6,8 @@ use anyhow::anyhow;
 use clap::Args;
 
 use super::{Failure, Verbosity, render};
+use crate::render::technique::TECHNIQUES;
+use crate::render::{Gpu, Renderer, stability};
 use crate::stimulus::check::{
     self, CompareError, Comparison, SAME_SHARE, SAME_WITHIN_LEVELS, changed_images,
 };
@@ -20,11 +22,16 @@ use crate::stimulus::{Manifest, StimulusError, StimulusSet};
 /// folders are compared in the same way.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example:\n  greyfield check stimuli/thesis-2010\n  greyfield check stimuli/thesis-2010 --set stimuli/thesis-2010.toml --diff differences"
+    after_help = "Example:\n  greyfield check stimuli/thesis-2010\n  greyfield check stimuli/thesis-2010 --set stimuli/thesis-2010.toml --diff differences\n  greyfield check --stability"
 )]
 pub struct Check {
     /// The folder with the images and their manifest.
-    folder: PathBuf,
+    #[arg(required_unless_present = "stability")]
+    folder: Option<PathBuf>,
+    /// Instead of a folder: draw every technique on frames at the edge of what can be drawn, and
+    /// print the worst of each.
+    #[arg(long, conflicts_with_all = ["folder", "set", "against", "diff"])]
+    stability: bool,
     /// The set the images are of: compare with it, and render it again here.
     #[arg(long, value_name = "SET.toml")]
     set: Option<PathBuf>,
@@ -52,8 +59,11 @@ pub struct Check {
 /// # Errors
 /// Exit code 1 if something is not as it should be, 2 for a folder or set that cannot be read.
 pub fn run(args: &Check, verbosity: Verbosity) -> Result<(), Failure> {
-    let manifest = Manifest::load(&args.folder).map_err(Failure::bad_input)?;
-    let mut problems = files(&manifest, &args.folder)?;
+    let Some(folder) = &args.folder else {
+        return stability(verbosity);
+    };
+    let manifest = Manifest::load(folder).map_err(Failure::bad_input)?;
+    let mut problems = files(&manifest, folder)?;
     let set = match &args.set {
         Some(path) => Some(StimulusSet::load(path).map_err(Failure::bad_input)?),
         None => None,
@@ -67,7 +77,7 @@ pub fn run(args: &Check, verbosity: Verbosity) -> Result<(), Failure> {
     }
     // Rendering takes long and compares nothing that was not said already.
     report(&problems)?;
-    let here = (&manifest, args.folder.as_path());
+    let here = (&manifest, folder.as_path());
     match (&args.against, set) {
         (Some(other), _) => {
             let theirs = Manifest::load(other).map_err(Failure::bad_input)?;
@@ -81,6 +91,33 @@ pub fn run(args: &Check, verbosity: Verbosity) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// Draws every technique on degenerate frames, and says which is not sound.
+fn stability(verbosity: Verbosity) -> Result<(), Failure> {
+    let renderer = Renderer::new(Gpu::open(None)?);
+    let techniques = TECHNIQUES.iter().filter(|t| t.shader.is_some()).count();
+    let progress = verbosity.progress(techniques as u64);
+    let rows = stability::sweep(&renderer, |technique| {
+        progress.set_message(technique.to_owned());
+        progress.inc(1);
+    })?;
+    progress.finish_and_clear();
+    print!("{}", stability::table(&rows));
+    let unsound: Vec<String> = rows
+        .iter()
+        .filter(|row| !row.is_sound())
+        .map(|row| format!("{} on \"{}\"", row.technique, row.case))
+        .collect();
+    if unsound.is_empty() {
+        println!(
+            "All {} frames are numbers from 0 to 1, on {}.",
+            rows.len(),
+            renderer.gpu().adapter.name
+        );
+        return Ok(());
+    }
+    Err(anyhow!("not a number from 0 to 1: {}", unsound.join(", ")).into())
 }
 
 /// Says what the folder holds; what is wrong with it is returned.

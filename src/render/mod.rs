@@ -23,6 +23,7 @@ mod renderer;
 mod shader;
 mod shading;
 mod shadow_view;
+pub mod stability;
 mod surfaces;
 mod targets;
 pub mod technique;
