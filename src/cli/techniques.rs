@@ -81,6 +81,8 @@ fn inputs(technique: &Technique) -> String {
     let read: Vec<&str> = [
         (technique.inputs.depth, "depth"),
         (technique.inputs.normals, "normals"),
+        (technique.inputs.light, "colours and light"),
+        (technique.inputs.proxies, "spheres fitted to the scene"),
     ]
     .into_iter()
     .filter_map(|(reads, name)| reads.then_some(name))
