@@ -6,8 +6,8 @@ use half::f16;
 use super::frame::{FrameRequest, Precision};
 use super::readback::{FloatImage, Readback};
 use super::{RenderError, View};
+use crate::render::Picture;
 use crate::scene::srgb;
-use crate::stimulus::manifest::Picture;
 
 /// One of the buffers that a frame is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

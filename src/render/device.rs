@@ -1,7 +1,7 @@
 //! Finding and opening an adapter.
 
 use super::RenderError;
-use crate::stimulus::manifest::AdapterRecord;
+use crate::render::AdapterRecord;
 
 /// An open adapter: everything that draws borrows it.
 #[derive(Debug, Clone)]

@@ -3,7 +3,7 @@
 use super::Gpu;
 use super::plan::PassKind;
 use super::timestamps::Timestamps;
-use crate::stimulus::manifest::PassRecord;
+use crate::render::PassRecord;
 
 /// Passes on their way to the GPU.
 pub(super) struct Recorder<'a> {

@@ -8,8 +8,8 @@ use super::shading::{self, Drawn, Shaded};
 use super::surfaces::{SunVisibility, SurfaceKey, Surfaces};
 use super::upload::GpuScene;
 use super::{Gpu, RenderError, technique};
+use crate::render::{PassRecord, Picture};
 use crate::scene::{Environment, Geometry, Sphere};
-use crate::stimulus::manifest::{PassRecord, Picture};
 
 /// Draws frames on one adapter.
 pub struct Renderer {

@@ -17,8 +17,8 @@ use super::recorder::Recorder;
 use super::surfaces::Surfaces;
 use super::targets::target;
 use super::{Gpu, RenderError};
+use crate::render::{PassRecord, Picture};
 use crate::scene::{Ambient, Background};
-use crate::stimulus::manifest::{PassRecord, Picture};
 
 /// A shaded image, with what can be read of how it came about.
 pub(super) struct Shaded {

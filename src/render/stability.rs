@@ -6,7 +6,7 @@ use glam::Vec3;
 use super::technique::{Settings, TECHNIQUES};
 use super::{FrameRequest, Precision, RenderError, Renderer};
 use crate::scene::primitives::{cuboid, of_one_material, quad};
-use crate::scene::{Ambient, Background, Camera, Geometry, Lighting, Material, Mesh, ToneMap};
+use crate::scene::{Camera, Geometry, Lighting, Material, Mesh};
 
 /// Size of the frames, pixels.
 const SIZE_PX: (u32, u32) = (96, 72);
@@ -127,17 +127,7 @@ fn request(camera: Camera, occlusion: Settings, precision: Precision) -> FrameRe
         height_px: SIZE_PX.1,
         supersampling: 1,
         camera,
-        lighting: Lighting {
-            ambient: Ambient::Constant(Vec3::ONE),
-            background: Background::Colour(Vec3::ONE),
-            reflections: false,
-            sun: None,
-            points: Vec::new(),
-            model_lights: None,
-            environment: None,
-            exposure_ev: 0.0,
-            tone_map: ToneMap::None,
-        },
+        lighting: Lighting::constant(Vec3::ONE),
         occlusion,
         handed_occlusion: None,
         blur_radius_px: 4,

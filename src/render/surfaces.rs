@@ -11,8 +11,8 @@ use super::recorder::Recorder;
 use super::shadow_view::ShadowView;
 use super::targets::target;
 use super::{Gpu, GpuScene, RenderError};
+use crate::render::PassRecord;
 use crate::scene::Camera;
-use crate::stimulus::manifest::PassRecord;
 
 /// What drawn surfaces depend on.
 #[derive(Debug, Clone, Copy, PartialEq)]

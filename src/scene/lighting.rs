@@ -124,6 +124,23 @@ impl std::fmt::Display for ToneMap {
 }
 
 impl Lighting {
+    /// The same radiance from everywhere and behind everything, and nothing else: the low level of
+    /// validity of 2010.
+    #[must_use]
+    pub fn constant(radiance: Vec3) -> Self {
+        Self {
+            ambient: Ambient::Constant(radiance),
+            background: Background::Colour(radiance),
+            reflections: false,
+            sun: None,
+            points: Vec::new(),
+            model_lights: None,
+            environment: None,
+            exposure_ev: 0.0,
+            tone_map: ToneMap::None,
+        }
+    }
+
     /// This lighting with the model's own lights in it, in the scene's units, where the
     /// variant asks for them.
     ///
@@ -193,17 +210,7 @@ mod tests {
                 cone: None,
             }],
         };
-        let dark = Lighting {
-            ambient: Ambient::Constant(Vec3::ONE),
-            background: Background::Colour(Vec3::ONE),
-            reflections: false,
-            sun: None,
-            points: Vec::new(),
-            model_lights: None,
-            environment: None,
-            exposure_ev: 0.0,
-            tone_map: ToneMap::None,
-        };
+        let dark = Lighting::constant(Vec3::ONE);
         assert_eq!(dark.with_model_lights(&lights), dark);
         let asking = Lighting {
             model_lights: Some(0.01),

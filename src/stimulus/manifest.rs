@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::ParameterValue;
 use crate::digest;
+pub use crate::render::{AdapterRecord, PassRecord, Picture};
 
 /// Name of the manifest in a folder of stimuli.
 pub const FILE_NAME: &str = "manifest.json";
@@ -32,19 +33,6 @@ pub struct Manifest {
     pub adapter: Option<AdapterRecord>,
     /// The conditions, in the set's order.
     pub pairs: Vec<PairRecord>,
-}
-
-/// The adapter that drew a set.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct AdapterRecord {
-    /// As the driver names it.
-    pub name: String,
-    /// Vulkan, Metal, Dx12.
-    pub backend: String,
-    /// discrete GPU, integrated GPU, CPU, …
-    pub kind: String,
-    /// Driver and its version.
-    pub driver: String,
 }
 
 /// One condition: two images that differ in the technique alone.
@@ -114,18 +102,6 @@ pub struct SourceRecord {
     pub metadata: BTreeMap<String, String>,
 }
 
-/// One pass of a frame and what it took.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PassRecord {
-    /// Name of the pass.
-    pub pass: String,
-    /// GPU time, milliseconds; absent where the adapter has no timestamps.
-    pub gpu_ms: Option<f64>,
-    /// Whether it was drawn for an earlier image of the scene and used again.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub shared: bool,
-}
-
 /// A folder of stimuli that cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum StimulusError {
@@ -161,17 +137,6 @@ pub enum StimulusError {
         /// What was found, what is expected, how to mend it.
         message: String,
     },
-}
-
-/// An image as it goes to the screen: 8-bit sRGB, RGBA, rows from the top.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Picture {
-    /// Columns.
-    pub width_px: u32,
-    /// Rows.
-    pub height_px: u32,
-    /// `4 · width_px · height_px` bytes; alpha is 255.
-    pub rgba8: Vec<u8>,
 }
 
 impl Manifest {

@@ -181,7 +181,7 @@ fn passes_run_after_what_they_read() {
 #[test]
 fn the_tree_names_each_pass_its_cost_and_each_effect_left_out() {
     let plan = FramePlan::new(&request("none"), &PLAIN);
-    let ran = [crate::stimulus::manifest::PassRecord {
+    let ran = [crate::render::PassRecord {
         pass: String::from("shade"),
         gpu_ms: Some(12.345),
         shared: false,

@@ -3,7 +3,7 @@
 use std::fmt::{self, Write};
 
 use super::FramePlan;
-use crate::stimulus::manifest::PassRecord;
+use crate::render::PassRecord;
 
 impl FramePlan {
     /// The plan as a tree; `ran` is what the frame's passes took when it was drawn, and may
