@@ -38,9 +38,9 @@ impl Verbosity {
             return indicatif::ProgressBar::hidden();
         }
         let bar = indicatif::ProgressBar::new(steps);
-        if let Ok(style) =
-            indicatif::ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} ({eta} left)")
-        {
+        if let Ok(style) = indicatif::ProgressStyle::with_template(
+            "{bar:30} {pos}/{len} {prefix}{msg} ({eta} left)",
+        ) {
             bar.set_style(style);
         }
         bar

@@ -1,6 +1,8 @@
 //! `greyfield render`: stimuli from a set config.
 
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use clap::Args;
@@ -9,6 +11,7 @@ use super::{Failure, Verbosity};
 use crate::render::plan::GeometryFacts;
 use crate::render::{Gpu, Precision, Renderer};
 use crate::stimulus::produce::{self, ProduceError};
+use crate::stimulus::progress::Progress;
 use crate::stimulus::set::ImageSource;
 use crate::stimulus::{Manifest, StimulusSet, files, sheet};
 
@@ -114,26 +117,46 @@ pub fn draw(
     adapter: Option<&str>,
     verbosity: Verbosity,
 ) -> Result<Drawn, Failure> {
-    let mut watch = StopWatch::new();
+    let watch = Mutex::new(StopWatch::new());
+    let traced = AtomicU64::new(0);
+    let (width_px, height_px) = set.size_px.unwrap_or_default();
+    let image_px = u64::from(width_px) * u64::from(height_px);
     let steps = 1 + set.scenes.len() + 2 * set.conditions.len();
     let bar = verbosity.progress(steps as u64);
     let open = || Ok(Renderer::new(Gpu::open(adapter)?));
-    let produced = produce::produce(&open, set, folder, only, &mut |what| {
-        watch.step(what);
+    let step = |what: &str| {
+        if let Ok(mut watch) = watch.lock() {
+            watch.step(what);
+        }
+        traced.store(0, Ordering::Relaxed);
         bar.set_message(what.to_owned());
         bar.inc(1);
-    })
-    .map_err(|error| match error {
-        ProduceError::NoSuchCondition { .. }
-        | ProduceError::Source(_)
-        | ProduceError::Pair { .. } => Failure::bad_input(error),
-        error => Failure::from(error),
-    })?;
+    };
+    // An image of rays takes minutes, a step of the bar alone: it counts its own pixels.
+    let pixels = |count| {
+        let done = traced.fetch_add(count, Ordering::Relaxed) + count;
+        bar.set_prefix(match done < image_px {
+            true => format!("traced {} % ", 100 * done / image_px),
+            false => String::new(),
+        });
+    };
+    let progress = Progress {
+        step: &step,
+        pixels: &pixels,
+    };
+    let produced =
+        produce::produce(&open, set, folder, only, &progress).map_err(|error| match error {
+            ProduceError::NoSuchCondition { .. }
+            | ProduceError::Source(_)
+            | ProduceError::Pair { .. } => Failure::bad_input(error),
+            error => Failure::from(error),
+        })?;
     bar.finish_and_clear();
     for warning in &produced.warnings {
         eprintln!("warning: {warning}");
     }
-    let mut timings = watch.finish();
+    let watch = watch.into_inner();
+    let mut timings = watch.map_or_else(|_| String::new(), StopWatch::finish);
     if let Some(adapter) = &produced.manifest.adapter {
         let (name, kind, driver) = (&adapter.name, &adapter.kind, &adapter.driver);
         timings = format!("on {name} ({kind}, {driver})\n{timings}");

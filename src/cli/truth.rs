@@ -9,7 +9,8 @@ use crate::reference::{OcclusionSettings, Weighting};
 use crate::render::{Gpu, Renderer};
 use crate::stimulus::StimulusSet;
 use crate::stimulus::produce::ProduceError;
-use crate::stimulus::truth::{self, Progress, TruthOptions};
+use crate::stimulus::progress::Progress;
+use crate::stimulus::truth::{self, TruthOptions};
 
 /// Find the true occlusion of a set's scenes by ray tracing, with its standard error.
 ///

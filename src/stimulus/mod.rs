@@ -8,6 +8,7 @@ pub mod loaded;
 pub mod manifest;
 pub mod pair_check;
 pub mod produce;
+pub mod progress;
 pub mod set;
 pub mod sheet;
 pub mod truth;

@@ -8,6 +8,7 @@ use super::files;
 use super::loaded::LoadedImage;
 use super::manifest::{self, AdapterRecord, ImageRecord, Manifest, PairRecord, StimulusError};
 use super::pair_check;
+use super::progress::Progress;
 use super::set::{ImageSource, LoadedPair, RenderedPair, SetCondition, StimulusSet};
 use super::truth::SceneTracer;
 use crate::digest;
@@ -59,8 +60,8 @@ pub struct Produced {
 
 /// Makes `set`, or only the condition `only`, in `folder`, and writes its manifest.
 ///
-/// `open` opens the renderer, and is called only if something is rendered. `progress` is called
-/// with what is about to be made. An image that two conditions share is drawn once and written
+/// `open` opens the renderer, and is called only if something is rendered. `progress` is told
+/// what is about to be made. An image that two conditions share is drawn once and written
 /// for both.
 ///
 /// # Errors
@@ -70,7 +71,7 @@ pub fn produce(
     set: &StimulusSet,
     folder: &Path,
     only: Option<&str>,
-    progress: &mut dyn FnMut(&str),
+    progress: &Progress<'_>,
 ) -> Result<Produced, ProduceError> {
     let chosen = choose(set, only)?;
     std::fs::create_dir_all(folder).map_err(|source| StimulusError::Unwritable {
@@ -88,7 +89,7 @@ pub fn produce(
         .iter()
         .any(|c| matches!(c.images, ImageSource::Rendered(_)))
     {
-        progress("opening the adapter");
+        (progress.step)("opening the adapter");
         let renderer = open()?;
         made.adapter = Some(renderer.gpu().adapter.clone());
         for scene in 0..set.scenes.len() {
@@ -196,10 +197,10 @@ impl Made {
         folder: &Path,
         condition: &SetCondition,
         pair: &LoadedPair,
-        progress: &mut dyn FnMut(&str),
+        progress: &Progress<'_>,
     ) -> Result<(), ProduceError> {
-        let mut load = |image: &LoadedImage| {
-            progress(&format!("{} {}", condition.id, image.label));
+        let load = |image: &LoadedImage| {
+            (progress.step)(&format!("{} {}", condition.id, image.label));
             image.load(set.size_px).map_err(ProduceError::Source)
         };
         let (first, second) = (load(&pair.first)?, load(&pair.second)?);
@@ -248,7 +249,7 @@ impl Made {
         folder: &Path,
         index: usize,
         chosen: &[&SetCondition],
-        progress: &mut dyn FnMut(&str),
+        progress: &Progress<'_>,
     ) -> Result<(), ProduceError> {
         let conditions: Vec<(&SetCondition, &RenderedPair)> = chosen
             .iter()
@@ -261,7 +262,7 @@ impl Made {
             return Ok(());
         }
         let scene = &set.scenes[index];
-        progress(&format!("scene {}", scene.id));
+        (progress.step)(&format!("scene {}", scene.id));
         let geometry = scene.geometry.load()?;
         let surfaces = renderer.upload(&geometry)?;
         let is_traced = |technique: &Settings| technique.technique.is_handed_in();
@@ -303,7 +304,7 @@ impl Producer<'_> {
         &mut self,
         condition: &SetCondition,
         pair: &RenderedPair,
-        progress: &mut dyn FnMut(&str),
+        progress: &Progress<'_>,
     ) -> Result<PairRecord, ProduceError> {
         Ok(PairRecord {
             condition: condition.id.clone(),
@@ -320,10 +321,10 @@ impl Producer<'_> {
         condition: &SetCondition,
         pair: &RenderedPair,
         technique: &Settings,
-        progress: &mut dyn FnMut(&str),
+        progress: &Progress<'_>,
     ) -> Result<ImageRecord, ProduceError> {
         let file = file_name(condition, &technique.label);
-        progress(&format!("{} {}", condition.id, technique.label));
+        (progress.step)(&format!("{} {}", condition.id, technique.label));
         let path = self.folder.join(&file);
         let key = format!(
             "{} {} {:?}",
@@ -332,7 +333,7 @@ impl Producer<'_> {
             technique.values()
         );
         if !self.drawn.contains_key(&key) {
-            let drawn = self.draw(pair, technique, &path)?;
+            let drawn = self.draw(pair, technique, &path, progress)?;
             self.drawn.insert(key.clone(), drawn);
         }
         let (bytes, record) = &self.drawn[&key];
@@ -349,10 +350,11 @@ impl Producer<'_> {
         pair: &RenderedPair,
         technique: &Settings,
         path: &Path,
+        progress: &Progress<'_>,
     ) -> Result<(Vec<u8>, ImageRecord), ProduceError> {
         let mut request = self.set.request(pair, technique);
         if let Some(tracer) = &mut self.tracer {
-            request = tracer.complete(&mut self.view, request)?;
+            request = tracer.complete(&mut self.view, request, progress)?;
         }
         let frame = self.view.render(&request)?;
         let bytes = files::encode_png(path, &frame.picture)?;

@@ -6,6 +6,7 @@ use crate::render::{Buffer, Gpu, Renderer};
 use crate::scene::Geometry;
 use crate::stimulus::StimulusSet;
 use crate::stimulus::manifest::{PairRecord, Picture};
+use crate::stimulus::progress::Progress;
 use crate::stimulus::set::RenderedPair;
 use crate::stimulus::truth::SceneTracer;
 
@@ -27,7 +28,7 @@ pub fn redraw(
     let mut request = set.request(pair, technique);
     if technique.technique.is_handed_in() {
         request = SceneTracer::new(&geometry)
-            .complete(&mut view, request)
+            .complete(&mut view, request, &Progress::SILENT)
             .map_err(|error| error.to_string())?;
     }
     drop(geometry);

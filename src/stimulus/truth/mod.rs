@@ -14,6 +14,7 @@ pub use tracer::SceneTracer;
 use super::files::write_whole;
 use super::manifest::StimulusError;
 use super::produce::{ProduceError, choose};
+use super::progress::Progress;
 use super::set::{ImageSource, RenderedPair, StimulusSet};
 use crate::digest;
 use crate::reference::{
@@ -30,14 +31,6 @@ pub struct TruthOptions {
     pub settings: OcclusionSettings,
     /// Whether the depth buffer's own answer is made too.
     pub screen_space: bool,
-}
-
-/// Told what is about to be made, and how many pixels are newly done.
-pub struct Progress<'a> {
-    /// A step begins.
-    pub step: &'a (dyn Fn(&str) + Sync),
-    /// Pixels are done.
-    pub pixels: &'a (dyn Fn(u64) + Sync),
 }
 
 /// The scenes that a set, or its condition `only`, renders; each by the first of its pairs.

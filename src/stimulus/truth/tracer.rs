@@ -8,6 +8,7 @@ use crate::reference::{OcclusionSettings, RayTraced, SceneBvh, Weighting, estima
 use crate::render::technique::Settings;
 use crate::render::{FloatImage, FrameRequest, RenderError, View};
 use crate::scene::Geometry;
+use crate::stimulus::progress::Progress;
 
 /// A scene's triangles, ready for rays, and what was found with them so far.
 pub struct SceneTracer {
@@ -34,13 +35,14 @@ impl SceneTracer {
         &mut self,
         view: &mut View<'_>,
         mut request: FrameRequest,
+        progress: &Progress<'_>,
     ) -> Result<FrameRequest, RenderError> {
         if !request.occlusion.technique.is_handed_in() {
             return Ok(request);
         }
         let key = format!("{:?}", request.occlusion.values());
         if !self.found.contains_key(&key) {
-            let image = self.trace(view, &request)?;
+            let image = self.trace(view, &request, progress)?;
             self.found.insert(key.clone(), Arc::new(image));
         }
         request.handed_occlusion = self.found.get(&key).cloned();
@@ -51,11 +53,12 @@ impl SceneTracer {
         &self,
         view: &mut View<'_>,
         request: &FrameRequest,
+        progress: &Progress<'_>,
     ) -> Result<FloatImage, RenderError> {
         let surfaces = view.visible_surfaces(request)?;
         let settings = of_technique(&request.occlusion, request.seed);
         let points = RayTraced::of_visible(&self.bvh, &surfaces);
-        let found = estimate(&points, &settings, &|_| {})
+        let found = estimate(&points, &settings, progress.pixels)
             .map_err(|error| RenderError::Request(error.to_string()))?;
         Ok(FloatImage {
             width_px: request.width_px,
