@@ -122,6 +122,43 @@ fn the_truth_is_what_a_wall_beside_a_floor_must_be() {
     }
 }
 
+/// Nothing of a convex body hides anything of it, its edges against the sky included, where a
+/// pixel's ray may pass the body by and a point that was drawn may lie within it.
+#[test]
+fn a_ball_alone_is_open_to_its_very_edge() {
+    const COLUMNS: usize = 96;
+    const ROWS: usize = 48;
+    let mut model = String::new();
+    for row in 0..=ROWS {
+        for column in 0..COLUMNS {
+            let (polar, turn) = (
+                std::f64::consts::PI * row as f64 / ROWS as f64,
+                std::f64::consts::TAU * column as f64 / COLUMNS as f64,
+            );
+            let (x, z) = (polar.sin() * turn.sin(), polar.sin() * turn.cos());
+            model += &format!("v {x} {} {z}\n", polar.cos() + 0.5);
+        }
+    }
+    for row in 0..ROWS {
+        for column in 0..COLUMNS {
+            let at = |row: usize, column: usize| 1 + row * COLUMNS + column % COLUMNS;
+            let [a, b] = [at(row, column), at(row + 1, column)];
+            let [c, d] = [at(row + 1, column + 1), at(row, column + 1)];
+            model += &format!("f {a} {b} {c} {d}\n");
+        }
+    }
+    let study = Study::new();
+    std::fs::write(study.path("wall.obj"), model).unwrap();
+    let set = (SET.replace("= 64", "= 320")).replace("= 48", "= 240");
+    std::fs::write(study.path("set.toml"), set).unwrap();
+    study.succeed(&["truth", "set.toml", "--error", "0.02", "--out", "truth"]);
+    let occlusion = study.occlusion("truth", "ray-traced");
+    // Where there are facets, a smooth normal leans by up to 2 degrees: 0.0003.
+    let dark = (occlusion.enumerate_pixels()).filter(|(_, _, value)| value[0] < 64_000);
+    let dark: Vec<_> = dark.map(|(x, y, value)| (x, y, value[0])).collect();
+    assert!(dark.is_empty(), "{dark:?}");
+}
+
 /// Same config, seed and adapter: same bytes, whatever the number of threads; and the image of
 /// the technique differs from another's.
 #[test]
