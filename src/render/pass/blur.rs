@@ -1,17 +1,8 @@
 //! The edge-aware blur of the occlusion.
 
 use super::super::Gpu;
-use super::super::bindings::{Bindings, uniform_of};
+use super::super::bindings::Bindings;
 use super::fullscreen::{Fullscreen, Onto};
-
-/// The WGSL struct `Blur`.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct BlurUniform {
-    direction: [i32; 2],
-    radius_px: i32,
-    plane_m: f32,
-}
 
 /// What the blur reads.
 pub(in super::super) struct BlurInputs<'a> {
@@ -32,23 +23,21 @@ pub(in super::super) fn blur(
     direction: [i32; 2],
     target: &wgpu::TextureView,
 ) {
-    let uniform = BlurUniform {
-        direction,
-        radius_px: inputs.radius_px as i32,
-        plane_m: inputs.plane_m,
-    };
-    let settings = uniform_of(&gpu.device, "blur", &[uniform]);
+    // Constants, so that its loop unrolls.
+    let settings = format!(
+        "const direction = vec2i({}, {});\nconst radius_px = {};\nconst plane_m = {:?}f;\n",
+        direction[0], direction[1], inputs.radius_px, inputs.plane_m
+    );
     let bound = Bindings::default()
         .uniform(0, inputs.frame)
         .texture(1, inputs.depth_m, false)
         .texture(2, inputs.normals, false)
         .texture(3, inputs.occlusion, false)
-        .uniform(4, &settings)
         .build(&gpu.device, "blur");
     Fullscreen {
         label: "occlusion blur",
         source: include_str!("../shaders/blur.wgsl"),
-        variants: &[inputs.normals_part],
+        variants: &[inputs.normals_part, ("blur_settings", &settings)],
         fragment: "fs_blur",
         bound: &bound,
         onto: Onto::Cleared(wgpu::Color::TRANSPARENT),

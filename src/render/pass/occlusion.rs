@@ -42,7 +42,7 @@ pub(in super::super) fn occlusion(
     let Some(source) = technique.shader else {
         return;
     };
-    let params = uniform_of(&gpu.device, "occlusion parameters", &settings.uniform());
+    let params = settings.wgsl();
     let noise = uniform_of(
         &gpu.device,
         "noise tile",
@@ -55,7 +55,6 @@ pub(in super::super) fn occlusion(
         .uniform(0, inputs.frame)
         .texture(1, inputs.depth_m, false)
         .texture(2, inputs.normals, false)
-        .uniform(20, &params)
         .storage(21, &kernel)
         .uniform(22, &noise);
     if technique.inputs.light {
@@ -71,6 +70,7 @@ pub(in super::super) fn occlusion(
     let variants: Vec<_> = technique::SHARED_WGSL
         .iter()
         .copied()
+        .chain([("params", params.as_str())])
         .chain([inputs.normals_part, sun_visibility_part(inputs.visibility)])
         .collect();
     let targets: Vec<_> = [Some(targets.occlusion), targets.directional]

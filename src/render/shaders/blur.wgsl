@@ -1,4 +1,7 @@
-// Edge-aware blur of the occlusion, one direction a pass.
+// Edge-aware blur of the occlusion, one direction a pass. `blur_settings` are the constants
+//     direction   one pixel's step
+//     radius_px   how many pixels to each side
+//     plane_m     distance from the centre's plane at which a tap counts 1/e, metres
 //
 // A tap counts by its distance in pixels (Gaussian), by how far it lies from the plane through
 // the centre, and by how far its normal turns away. The plane distance keeps the blur whole
@@ -6,42 +9,44 @@
 //!use frame
 //!use fullscreen
 //!use normals
-struct Blur {
-    direction: vec2i,
-    radius_px: i32,
-    plane_m: f32,
-}
+//!use blur_settings
 
 @group(0) @binding(1) var depth_texture: texture_2d<f32>;
 @group(0) @binding(3) var occlusion_texture: texture_2d<f32>;
-@group(0) @binding(4) var<uniform> blur: Blur;
 
 @fragment
 fn fs_blur(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let centre = vec2i(position.xy);
+    let texels = frame.samples;
+    let texel = occlusion_texel(centre);
+    let size_px = vec2u(frame.size_px);
     let centre_value = textureLoad(occlusion_texture, centre, 0);
-    let centre_depth_m = textureLoad(depth_texture, occlusion_texel(centre), 0).x;
+    let centre_depth_m = textureLoad(depth_texture, texel, 0).x;
     if centre_depth_m >= frame.far_m {
         return centre_value;
     }
-    let centre_m = view_position(vec2f(centre) + occlusion_sample(), centre_depth_m);
-    let world = world_normal(occlusion_texel(centre));
+    let world = world_normal(texel);
     let normal = (frame.view * vec4f(world, 0.0)).xyz;
-    // Two standard deviations reach the last tap.
-    let falloff = 2.0 / f32(blur.radius_px * blur.radius_px);
+    // The part of a pixel's position along the normal is its depth times what is linear in its step.
+    let ray = view_position(vec2f(centre) + occlusion_sample(), 1.0);
+    let px_m = vec2f(2.0, -2.0) * frame.half_extent / frame.size_px;
+    let along = dot(ray, normal) / plane_m;
+    let along_step = dot(vec2f(direction) * px_m, normal.xy) / plane_m;
+    let plane = centre_depth_m * along;
     var sum = centre_value;
     var total = 1.0;
-    for (var step = -blur.radius_px; step <= blur.radius_px; step++) {
-        let tap = centre + blur.direction * step;
-        if step == 0 || !is_inside(tap) {
+    for (var step = -radius_px; step <= radius_px; step++) {
+        let tap = centre + direction * step;
+        if step == 0 || !all(vec2u(tap) < size_px) {
             continue;
         }
-        let texel = occlusion_texel(tap);
-        let depth_m = textureLoad(depth_texture, texel, 0).x;
-        let tap_m = view_position(vec2f(tap) + occlusion_sample(), depth_m);
-        let off_plane = dot(tap_m - centre_m, normal) / blur.plane_m;
-        let turned = max(dot(world, world_normal(texel)), 0.0);
-        let weight = exp(-f32(step * step) * falloff - off_plane * off_plane) * turned * turned;
+        let tap_texel = texel + direction * (step * texels);
+        let depth_m = textureLoad(depth_texture, tap_texel, 0).x;
+        let off_plane = depth_m * (along + f32(step) * along_step) - plane;
+        let turned = max(dot(world, world_normal(tap_texel)), 0.0);
+        // Two standard deviations reach the last tap.
+        let distance = f32(step) / f32(radius_px);
+        let weight = exp(-2.0 * distance * distance - off_plane * off_plane) * turned * turned;
         sum += weight * textureLoad(occlusion_texture, tap, 0);
         total += weight;
     }

@@ -2,14 +2,6 @@
 // surface and how near it is.
 //!use occlusion
 //!use spatial_noise
-struct Params {
-    samples: f32,
-    radius_m: f32,
-    intensity_m: f32,
-    bias: f32,
-    softening_m: f32,
-    contrast: f32,
-}
 
 fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
     let centre_m = view_position(sample_px(pixel), depth_m);

@@ -1,14 +1,5 @@
 // Filion & McNaughton 2008; thesis 4.3.2 and appendix B.
 //!use thesis_falloff
-struct Params {
-    samples: f32,
-    radius_m: f32,
-    distance_scale_per_m: f32,
-    near_threshold_m: f32,
-    far_threshold_m: f32,
-    power: f32,
-    mode: f32,
-}
 
 fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
     let centre_m = view_position(sample_px(pixel), depth_m);

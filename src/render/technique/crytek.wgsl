@@ -4,10 +4,6 @@
 // last, turned by a rotation that is tiled over the picture. Three artefacts belong to the technique
 // and stay: bright edges, far things that darken what is behind them, and grey flat walls.
 //!use occlusion
-struct Params {
-    samples: f32,
-    radius_uv: f32,
-}
 
 fn rotate(quaternion: vec4f, v: vec3f) -> vec3f {
     let t = 2.0 * cross(quaternion.xyz, v);

@@ -1,44 +1,34 @@
 // Jimenez et al. 2016: in each slice the horizon to both sides, and the cosine-weighted light between them by
 // a closed form.
 //!use slices
-struct Params {
-    slices: f32,
-    steps: f32,
-    radius_m: f32,
-    falloff: f32,
-    step_power: f32,
-}
 
-// Cosine of the angle to the horizon on one side of the slice.
-fn horizon(slice: Slice, centre_m: vec3f, pixel: vec2i, side: f32, jitter: f32) -> f32 {
-    let lowest = cos(slice.normal_angle + side * 0.5 * PI);
-    var highest = lowest;
-    for (var i = 0.0; i < params.steps; i += 1.0) {
-        let step = step_px(slice, side, params.radius_m, i + jitter, params.steps, params.step_power);
-        let seen = seen_at(slice, side, centre_m, pixel, step);
-        if !seen.is_there {
-            continue;
-        }
-        // What is farther off counts less, and what is out of reach not at all.
-        let near = clamp((params.radius_m - seen.distance_m) / max(params.falloff * params.radius_m, 1e-20), 0.0, 1.0);
-        highest = max(highest, mix(lowest, cos(angle_of(seen.offset_m, side)), near));
-    }
-    return clamp(highest, -1.0, 1.0);
+// The higher of two horizons' cosines: the one so far, and that of a sample.
+fn raised(highest: f32, lowest: f32, seen: Seen) -> f32 {
+    // What is farther off counts less, and what is out of reach not at all.
+    let range_m = max(params.falloff * params.radius_m, 1e-20);
+    let near = clamp((params.radius_m - sqrt(seen.distance_2)) / range_m, 0.0, 1.0);
+    let rise = mix(lowest, seen.offset_m.y * seen.per_m, near);
+    return select(highest, max(highest, rise), seen.is_there);
 }
 
 fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
-    let centre_m = view_position(sample_px(pixel), depth_m);
-    let normal = view_normal(pixel);
+    let sight = sight_of(pixel, depth_m);
     let noise = spatial_noise(pixel);
     var open = 0.0;
     var whole = 0.0;
     for (var i = 0.0; i < params.slices; i += 1.0) {
-        let slice = slice_at(centre_m, normal, PI * (i + noise.x) / params.slices);
-        let n = slice.normal_angle;
-        let right = min(acos(horizon(slice, centre_m, pixel, 1.0, noise.y)), n + 0.5 * PI);
-        let left = max(-acos(horizon(slice, centre_m, pixel, -1.0, noise.y)), n - 0.5 * PI);
-        open += slice.weight * (arc(left, n) + arc(right, n));
-        whole += slice.weight * (arc(n - 0.5 * PI, n) + arc(n + 0.5 * PI, n));
+        let angle = PI * (i + noise.x) / params.slices;
+        let slice = slice_at(sight, vec2f(cos(angle), sin(angle)), params.radius_m);
+        // Cosines of the angles to the horizon to both sides; at first, of the surface itself.
+        let lowest = vec2f(-slice.sin_normal, slice.sin_normal);
+        var highest = lowest;
+        for (var k = 0.0; k < params.steps; k += 1.0) {
+            let length_px = step_px(slice, (k + noise.y) / params.steps, params.step_power);
+            highest.x = raised(highest.x, lowest.x, seen_at(sight, slice, 1.0, length_px));
+            highest.y = raised(highest.y, lowest.y, seen_at(sight, slice, -1.0, length_px));
+        }
+        open += slice.weight * (arc(slice, 1.0, highest.x) + arc(slice, -1.0, highest.y));
+        whole += slice.weight * slice.light;
     }
     // By what the same slices would let in if all were open: an open plane is exactly 1.
     return open / max(whole, 1e-6);

@@ -1,33 +1,27 @@
 // Bavoil, Sainz and Dimitrov 2008: along each direction the rise of the horizon above the surface, each rise
 // counted by how near it is.
 //!use slices
-struct Params {
-    directions: f32,
-    steps: f32,
-    radius_m: f32,
-    bias_deg: f32,
-    step_power: f32,
-}
 
 fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
-    let centre_m = view_position(sample_px(pixel), depth_m);
-    let normal = view_normal(pixel);
+    let sight = sight_of(pixel, depth_m);
     let noise = spatial_noise(pixel);
+    let bias = vec2f(cos(radians(params.bias_deg)), sin(radians(params.bias_deg)));
     var closed = 0.0;
     for (var i = 0.0; i < params.directions; i += 1.0) {
-        let slice = slice_at(centre_m, normal, 2.0 * PI * (i + noise.x) / params.directions);
-        // Elevations above the plane across the line of sight.
-        var highest = sin(clamp(radians(params.bias_deg) - slice.normal_angle, -0.5 * PI, 0.5 * PI));
+        let angle = 2.0 * PI * (i + noise.x) / params.directions;
+        let slice = slice_at(sight, vec2f(cos(angle), sin(angle)), params.radius_m);
+        // Sine of the elevation above the plane across the line of sight: of the surface itself, the bias
+        // added, and at most straight at the eye.
+        let surface = vec2f(slice.cos_normal, -slice.sin_normal);
+        let cosine = surface.x * bias.x - surface.y * bias.y;
+        var highest = select(surface.y * bias.x + surface.x * bias.y, 1.0, cosine < 0.0);
         for (var k = 0.0; k < params.steps; k += 1.0) {
-            let step = step_px(slice, 1.0, params.radius_m, k + noise.y, params.steps, params.step_power);
-            let seen = seen_at(slice, 1.0, centre_m, pixel, step);
-            if !seen.is_there || seen.distance_m > params.radius_m {
-                continue;
-            }
-            let elevation = cos(angle_of(seen.offset_m, 1.0));
-            if elevation > highest {
-                let far = seen.distance_m / params.radius_m;
-                closed += (1.0 - far * far) * (elevation - highest);
+            let length_px = step_px(slice, (k + noise.y) / params.steps, params.step_power);
+            let seen = seen_at(sight, slice, 1.0, length_px);
+            let elevation = seen.offset_m.y * seen.per_m;
+            let far_2 = seen.distance_2 / (params.radius_m * params.radius_m);
+            if seen.is_there && far_2 <= 1.0 && elevation > highest {
+                closed += (1.0 - far_2) * (elevation - highest);
                 highest = elevation;
             }
         }

@@ -1,16 +1,6 @@
 // Thesis 4.3.3 and appendix C, after an idea of Bavoil & Sainz 2009: as blizzard, but each
 // offset is walked in equal steps, and the first surface found in front ends the walk.
 //!use thesis_falloff
-struct Params {
-    directions: f32,
-    steps: f32,
-    radius_m: f32,
-    distance_scale_per_m: f32,
-    near_threshold_m: f32,
-    far_threshold_m: f32,
-    power: f32,
-    mode: f32,
-}
 
 fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
     let centre_m = view_position(sample_px(pixel), depth_m);

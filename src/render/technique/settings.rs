@@ -165,18 +165,19 @@ impl Settings {
             .collect()
     }
 
-    /// The bytes of the WGSL struct `Params`: one f32 a parameter, in the order declared,
-    /// padded to the 16 bytes a uniform buffer needs.
+    /// The WGSL part `params`: the technique's own parameters by name, as constants. Loops of a known
+    /// length unroll, and what many samples have in common is computed once.
     #[must_use]
-    pub fn uniform(&self) -> Vec<f32> {
-        let mut numbers: Vec<f32> = self
-            .technique
-            .parameters
-            .iter()
-            .map(|p| self.values[p.name] as f32)
-            .collect();
-        numbers.resize(numbers.len().next_multiple_of(4).max(4), 0.0);
-        numbers
+    pub fn wgsl(&self) -> String {
+        let parameters = self.technique.parameters;
+        let fields = parameters.iter().map(|p| format!("{}: f32", p.name));
+        // Rust's shortest decimals come back as the same f32.
+        let values = (parameters.iter()).map(|p| format!("{:?}f", self.values[p.name] as f32));
+        format!(
+            "struct Params {{ {} }}\nconst params = Params({});\n",
+            fields.collect::<Vec<_>>().join(", "),
+            values.collect::<Vec<_>>().join(", ")
+        )
     }
 }
 

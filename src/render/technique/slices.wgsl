@@ -1,103 +1,183 @@
 // What techniques share that look along slices: planes through the eye and the point, in which
 // angles are measured from the direction to the eye.
+//
+// All is reckoned in three axes at the point: right and up, across the line of sight, and towards
+// the eye. A pixel's place in them is linear in its depth and in its step from the point's own.
 //!use occlusion
 //!use spatial_noise
 const PI: f32 = 3.14159265358979;
 
-struct Slice {
-    // Unit vectors that span it: towards the eye, and across.
-    view: vec3f,
-    across: vec3f,
-    // The surface's direction that leads out of the slice, scaled to advance 1 along its axis.
-    out: vec3f,
-    axis: vec3f,
-    // Angle from the eye to the normal's part within the slice, and that part's length.
-    normal_angle: f32,
-    weight: f32,
-    // A metre across, in pixels at the point.
-    px_per_m: vec2f,
+// A point and the line of sight to it.
+struct Sight {
+    pixel: vec2i,
+    depth_m: f32,
+    // From the eye to the point, metres.
+    distance_m: f32,
+    // What a step of one pixel along rows and along columns adds at a depth of 1 m.
+    right: vec2f,
+    up: vec2f,
+    view: vec2f,
+    // The unit normal.
+    normal: vec3f,
+    // A metre to the right, and up, in pixels at the point.
+    right_px: vec2f,
+    up_px: vec2f,
+    // What samples need of the frame, read once.
+    size_px: vec2u,
+    diagonal_px: f32,
+    texels: i32,
+    far_m: f32,
 }
 
-// The slice at an angle about the line of sight. Slices at even angles stand evenly about it
-// everywhere in the picture, which slices at even angles on the screen do not.
-fn slice_at(centre_m: vec3f, normal: vec3f, angle: f32) -> Slice {
+fn sight_of(pixel: vec2i, depth_m: f32) -> Sight {
+    let centre_m = view_position(sample_px(pixel), depth_m);
+    let normal = view_normal(pixel);
+    var sight: Sight;
+    sight.pixel = pixel;
+    sight.depth_m = depth_m;
+    sight.distance_m = length(centre_m);
+    let view = centre_m / -sight.distance_m;
+    // The line of sight never lies along the picture's rows.
+    let right = normalize(vec3f(1.0, 0.0, 0.0) - view * view.x);
+    let up = cross(view, right);
+    let px_m = vec2f(2.0, -2.0) * frame.half_extent / frame.size_px;
+    sight.right = px_m * right.xy;
+    sight.up = px_m * up.xy;
+    sight.view = px_m * view.xy;
+    sight.normal = vec3f(dot(normal, right), dot(normal, up), dot(normal, view));
+    let to_px = 1.0 / (px_m * depth_m);
+    let slope = centre_m.xy / depth_m;
+    sight.right_px = (right.xy + slope * right.z) * to_px;
+    sight.up_px = (up.xy + slope * up.z) * to_px;
+    sight.size_px = vec2u(frame.size_px);
+    sight.diagonal_px = length(frame.size_px);
+    sight.texels = frame.samples;
+    sight.far_m = frame.far_m;
+    return sight;
+}
+
+// A plane that holds the line of sight.
+struct Slice {
+    // What a step of one pixel adds across the line of sight, and out of the slice, at 1 m.
+    across: vec2f,
+    out: vec2f,
+    // The same, once brought back into the slice: across, and towards the eye.
+    within_across: vec2f,
+    within_view: vec2f,
+    // Sine and cosine of the angle from the eye to the normal's part within the slice, and that part's length.
+    sin_normal: f32,
+    cos_normal: f32,
+    weight: f32,
+    // All its cosine-weighted light, and the part of it on the side of -1.
+    light: f32,
+    low: f32,
+    // Direction on the picture, and how far the radius reaches there, pixels.
+    direction: vec2f,
+    reach_px: f32,
+}
+
+// The slice at an angle about the line of sight, given by its cosine and sine. Slices at even angles stand
+// evenly about it everywhere in the picture, which slices at even angles on the screen do not.
+fn slice_at(sight: Sight, turn: vec2f, radius_m: f32) -> Slice {
     var slice: Slice;
-    slice.view = normalize(-centre_m);
-    let right = normalize(vec3f(1.0, 0.0, 0.0) - slice.view * slice.view.x);
-    let up = cross(slice.view, right);
-    slice.across = cos(angle) * right + sin(angle) * up;
-    slice.axis = cross(slice.across, slice.view);
-    let beside = dot(normal, slice.axis);
-    let within = normal - slice.axis * beside;
-    slice.weight = length(within);
-    slice.out = (slice.axis - normal * beside) / max(1.0 - beside * beside, 1e-6);
-    // A normal map may turn the normal away from the eye.
-    slice.normal_angle = clamp(atan2(dot(within, slice.across), dot(within, slice.view)), -0.5 * PI, 0.5 * PI);
-    let depth_m = -centre_m.z;
-    let drift = slice.across.xy * depth_m + centre_m.xy * slice.across.z;
-    slice.px_per_m = drift / (depth_m * depth_m) * frame.size_px * vec2f(0.5, -0.5) / frame.half_extent;
+    slice.across = turn.x * sight.right + turn.y * sight.up;
+    slice.out = turn.y * sight.right - turn.x * sight.up;
+    let along = dot(turn, sight.normal.xy);
+    let beside = turn.y * sight.normal.x - turn.x * sight.normal.y;
+    // What lies beside the slice is brought into it along the surface, which keeps its height above
+    // the surface: so a plane never hides itself, however a sample is rounded to a pixel.
+    let drag = beside / max(1.0 - beside * beside, 1e-6);
+    slice.within_across = slice.across + slice.out * (drag * along);
+    slice.within_view = sight.view + slice.out * (drag * sight.normal.z);
+    slice.weight = sqrt(along * along + sight.normal.z * sight.normal.z);
+    // A normal map may turn the normal away from the eye: then it lies across.
+    let scale = 1.0 / max(slice.weight, 1e-6);
+    slice.sin_normal = select(along * scale, sign(along), sight.normal.z < 0.0);
+    slice.cos_normal = max(sight.normal.z * scale, 0.0);
+    let metre_px = turn.x * sight.right_px + turn.y * sight.up_px;
+    let px_per_m = length(metre_px);
+    slice.direction = metre_px / max(px_per_m, 1e-20);
+    slice.reach_px = min(px_per_m * radius_m, sight.diagonal_px);
+    slice.light = whole_arc(slice);
+    slice.low = low_arc(slice);
     return slice;
 }
 
+// How far a sample lies from the pixel, in pixels, at a share of the way to the radius: denser near the
+// point, at least a pixel, at most to the far end of the picture.
+fn step_px(slice: Slice, share: f32, power: f32) -> f32 {
+    return max(slice.reach_px * pow(share, power), 1.0);
+}
+
 struct Seen {
-    // From the point to the surface that a sample found, metres, within the slice.
+    // From the point to the surface that a sample found, metres: across and towards the eye, brought into
+    // the slice.
     offset_m: vec2f,
-    // Its true distance, metres, and where it lies.
-    distance_m: f32,
-    position_m: vec3f,
+    // One over its length.
+    per_m: f32,
+    // Square of its true distance, square metres.
+    distance_2: f32,
+    depth_m: f32,
     // Whether there is one: not off the picture, the sky, the point's own pixel, or beside it.
     is_there: bool,
 }
 
-// A point of view space in the slice's own axes: x across, y towards the eye. What lies beside
-// the slice is brought into it along the surface, which keeps its height above the surface: so
-// a plane never hides itself, however a sample is rounded to a pixel.
-fn into_slice(slice: Slice, offset_m: vec3f) -> vec2f {
-    let inside = offset_m - slice.out * dot(offset_m, slice.axis);
-    return vec2f(dot(inside, slice.across), dot(inside, slice.view));
-}
-
-// The sample at `step_px` from the pixel, on one side of the slice (1 or -1).
-fn seen_at(slice: Slice, side: f32, centre_m: vec3f, pixel: vec2i, step_px: vec2f) -> Seen {
+// The sample that far from the pixel, on one side of the slice (1 or -1).
+fn seen_at(sight: Sight, slice: Slice, side: f32, length_px: f32) -> Seen {
     var seen: Seen;
-    let tap = nearest_pixel(sample_px(pixel) + step_px);
-    if !is_inside(tap) || all(tap == pixel) {
-        return seen;
-    }
-    let depth_m = depth_at(tap);
-    if depth_m >= frame.far_m {
-        return seen;
-    }
-    seen.position_m = view_position(sample_px(tap), depth_m);
-    let offset_m = seen.position_m - centre_m;
-    seen.distance_m = length(offset_m);
-    seen.offset_m = into_slice(slice, offset_m);
+    let step = floor(slice.direction * (side * length_px) + 0.5);
+    let tap = sight.pixel + vec2i(step);
+    let depth_m = textureLoad(depth_texture, tap * sight.texels + sight.texels / 2, 0).x;
+    seen.depth_m = depth_m;
+    let nearer_m = sight.distance_m * ((sight.depth_m - depth_m) / sight.depth_m);
+    let true_m = vec3f(
+        depth_m * dot(step, slice.across),
+        depth_m * dot(step, slice.out),
+        depth_m * dot(step, sight.view) + nearer_m,
+    );
+    seen.offset_m = vec2f(
+        depth_m * dot(step, slice.within_across),
+        depth_m * dot(step, slice.within_view) + nearer_m,
+    );
+    seen.distance_2 = dot(true_m, true_m);
+    let offset_2 = dot(seen.offset_m, seen.offset_m);
+    seen.per_m = inverseSqrt(max(offset_2, 1e-30));
     // A sample rounded to a pixel may come to lie on the slice's other side, or hardly in the slice
     // at all: on a surface seen at a grazing angle a pixel to the side is far away.
-    seen.is_there = seen.offset_m.x * side > 0.0 && 4.0 * length(seen.offset_m) > seen.distance_m;
+    seen.is_there = all(vec2u(tap) < sight.size_px) && depth_m < sight.far_m
+        && seen.offset_m.x * side > 0.0 && 16.0 * offset_2 > seen.distance_2;
     return seen;
 }
 
-// The step of that number of `count`, in pixels: denser near the point, at least a pixel long,
-// at most to the far end of the picture.
-fn step_px(slice: Slice, side: f32, radius_m: f32, number: f32, count: f32, power: f32) -> vec2f {
-    let reach_px = length(slice.px_per_m) * radius_m;
-    if !(reach_px > 0.0) {
-        return vec2f(0.0);
-    }
-    let direction = slice.px_per_m / length(slice.px_per_m);
-    let length_px = min(reach_px, length(frame.size_px)) * pow(number / count, power);
-    return direction * side * max(length_px, 1.0);
+// The angle of a cosine, 0 to pi: Abramowitz & Stegun 1964, 4.4.46, right to 2e-8 but for rounding.
+fn arc_cosine(cosine: f32) -> f32 {
+    let x = min(abs(cosine), 1.0);
+    var sum = fma(-0.0012624911, x, 0.0066700901);
+    sum = fma(sum, x, -0.0170881256);
+    sum = fma(sum, x, 0.0308918810);
+    sum = fma(sum, x, -0.0501743046);
+    sum = fma(sum, x, 0.0889789874);
+    sum = fma(sum, x, -0.2145988016);
+    sum = fma(sum, x, 1.5707963050);
+    let angle = sqrt(1.0 - x) * sum;
+    return select(angle, PI - angle, cosine < 0.0);
 }
 
-// The angle from the eye of something seen, on one side of the slice (1 or -1).
-fn angle_of(offset_m: vec2f, side: f32) -> f32 {
-    return side * acos(clamp(offset_m.y / max(length(offset_m), 1e-20), -1.0, 1.0));
+// The part of a slice's cosine-weighted light between the eye's direction and an angle to one side
+// (1 or -1), by the angle's cosine: the integral of cos(t - n) |sin t| without sign
+// (Jimenez et al. 2016, eq. 10).
+fn arc(slice: Slice, side: f32, cosine: f32) -> f32 {
+    let sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+    let turned = arc_cosine(cosine) - sine * cosine;
+    return 0.5 * (slice.cos_normal * sine * sine + side * slice.sin_normal * turned);
 }
 
-// The part of a slice's cosine-weighted light between the eye's direction and an angle:
-// the integral of cos(t - n) |sin t| from 0 to `angle`, without sign (Jimenez et al. 2016,
-// eq. 10).
-fn arc(angle: f32, normal_angle: f32) -> f32 {
-    return 0.25 * (cos(normal_angle) + 2.0 * angle * sin(normal_angle) - cos(2.0 * angle - normal_angle));
+// All of it, from surface to surface.
+fn whole_arc(slice: Slice) -> f32 {
+    return slice.cos_normal + abs(slice.sin_normal) * arc_cosine(slice.cos_normal);
+}
+
+// What of it lies on the side of -1.
+fn low_arc(slice: Slice) -> f32 {
+    return 0.5 * (slice.cos_normal - slice.sin_normal * arc_cosine(slice.sin_normal));
 }

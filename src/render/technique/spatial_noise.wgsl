@@ -5,9 +5,9 @@
 fn hilbert_index(pixel: vec2i) -> u32 {
     var cell = vec2u(pixel) & vec2u(63u);
     var index = 0u;
-    for (var side = 32u; side > 0u; side /= 2u) {
-        let quarter = (cell / side) & vec2u(1u);
-        index += side * side * ((3u * quarter.x) ^ quarter.y);
+    for (var level = 6u; level > 0u; level--) {
+        let quarter = (cell >> vec2u(level - 1u)) & vec2u(1u);
+        index = 4u * index + ((3u * quarter.x) ^ quarter.y);
         if quarter.y == 0u {
             cell = select(cell, 63u - cell, quarter.x == 1u).yx;
         }

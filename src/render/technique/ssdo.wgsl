@@ -11,11 +11,6 @@
 //!use diffuse
 //!use irradiance
 //!use sun_visibility
-struct Params {
-    samples: f32,
-    radius_m: f32,
-    bounce: f32,
-}
 
 // How many radii away a surface may be seen that hides a sample.
 const SIGHT: f32 = 4.0;

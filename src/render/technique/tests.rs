@@ -77,22 +77,43 @@ fn what_is_not_there_is_said_with_what_is() {
     assert!(settings.set("radius_uv", f64::NAN).is_err());
 }
 
-/// The uniform buffer is filled in the order the parameters are declared, so the WGSL
-/// struct must list the same names in the same order.
+/// Each parameter is in the WGSL with exactly its value, and each that a shader reads is declared.
 #[test]
 fn the_wgsl_params_are_the_declared_parameters() {
     for technique in TECHNIQUES {
         let Some(source) = technique.shader else {
             continue;
         };
-        let start = source.find("struct Params {").unwrap() + "struct Params {".len();
-        let body = &source[start..start + source[start..].find('}').unwrap()];
-        let fields: Vec<&str> = body
-            .split(',')
-            .filter_map(|line| line.trim().strip_suffix(": f32"))
-            .collect();
-        let declared: Vec<&str> = technique.parameters.iter().map(|p| p.name).collect();
-        assert_eq!(fields, declared, "{}", technique.name);
+        let mut settings = Settings::defaults(technique, technique.name);
+        for parameter in technique.parameters {
+            if parameter.name.ends_with("_m") {
+                settings.set(parameter.name, 0.1 + 0.2).unwrap();
+            }
+        }
+        let wgsl = settings.wgsl();
+        let within = |open: &str, close: char| -> Vec<String> {
+            let from = wgsl.find(open).unwrap() + open.len();
+            let text = &wgsl[from..from + wgsl[from..].find(close).unwrap()];
+            text.split(',').map(|item| item.trim().to_owned()).collect()
+        };
+        let fields = within("struct Params {", '}');
+        let values = within("const params = Params(", ')');
+        assert_eq!(fields.len(), technique.parameters.len());
+        for ((parameter, field), value) in technique.parameters.iter().zip(fields).zip(values) {
+            assert_eq!(field, format!("{}: f32", parameter.name));
+            let value: f32 = value.strip_suffix('f').unwrap().parse().unwrap();
+            assert_eq!(value, settings.get(parameter.name) as f32);
+        }
+        for read in source.split("params.").skip(1) {
+            let name = read
+                .split(|c: char| !c.is_alphanumeric() && c != '_')
+                .next()
+                .unwrap();
+            assert!(
+                technique.parameters.iter().any(|p| p.name == name),
+                "{name}"
+            );
+        }
     }
 }
 

@@ -8,14 +8,6 @@
 //!use occlusion
 //!use spatial_noise
 //!use proxies
-struct Params {
-    samples: f32,
-    radius_m: f32,
-    reach_m: f32,
-    bias: f32,
-    proxies: f32,
-    overlap: f32,
-}
 
 // A surface point's two normals. A bump of the shading normal must not see the plane it is painted on.
 struct Facing {

@@ -1,23 +1,14 @@
 // Therrien et al. 2023: in each slice 32 sectors of the half circle above the surface, each open or closed.
 // Occluders have a thickness, so that light passes behind them.
 //!use slices
-struct Params {
-    slices: f32,
-    steps: f32,
-    radius_m: f32,
-    thickness_m: f32,
-    step_power: f32,
-}
 
-// Where an angle falls among the slice's light, 0 to 1. The paper counts sectors of equal angle;
-// these are of equal cosine-weighted light, so that counting them is the integral.
-fn share_of(angle: f32, slice: Slice) -> f32 {
-    let n = slice.normal_angle;
-    let low = arc(n - 0.5 * PI, n);
-    let whole = low + arc(n + 0.5 * PI, n);
-    let clamped = clamp(angle, n - 0.5 * PI, n + 0.5 * PI);
-    let part = arc(clamped, n);
-    return clamp((low + select(part, -part, clamped < 0.0)) / max(whole, 1e-6), 0.0, 1.0);
+// Where a direction of the slice, to one side (1 or -1), falls among its light, 0 to 1. The paper counts
+// sectors of equal angle; these are of equal cosine-weighted light, so that counting them is the
+// integral. What lies below the surface is at the light's end.
+fn share_of(slice: Slice, side: f32, direction: vec2f) -> f32 {
+    let share = (slice.low + side * arc(slice, side, direction.y)) / slice.light;
+    let is_below = dot(direction, vec2f(slice.sin_normal, slice.cos_normal)) < 0.0;
+    return clamp(select(share, side, is_below), 0.0, 1.0);
 }
 
 // The sectors between two shares, each in or out by its middle.
@@ -30,34 +21,32 @@ fn sectors(from_share: f32, to_share: f32) -> u32 {
     return select(ones << min(first, 31u), 0u, count == 0u);
 }
 
-fn closed_sectors(slice: Slice, centre_m: vec3f, pixel: vec2i, side: f32, jitter: f32) -> u32 {
-    var closed = 0u;
-    for (var i = 0.0; i < params.steps; i += 1.0) {
-        let step = step_px(slice, side, params.radius_m, i + jitter, params.steps, params.step_power);
-        let seen = seen_at(slice, side, centre_m, pixel, step);
-        if !seen.is_there || seen.distance_m > params.radius_m {
-            continue;
-        }
-        let behind_m = seen.position_m + normalize(seen.position_m) * params.thickness_m - centre_m;
-        let front = share_of(angle_of(seen.offset_m, side), slice);
-        let back = share_of(angle_of(into_slice(slice, behind_m), side), slice);
-        closed |= sectors(front, back);
-    }
-    return closed;
+// The sectors that what is seen closes.
+fn closed_by(seen: Seen, sight: Sight, slice: Slice, side: f32) -> u32 {
+    // Its back lies behind it on its own line of sight.
+    let sightline_m = seen.offset_m - vec2f(0.0, sight.distance_m);
+    let behind_m = seen.offset_m + sightline_m * (params.thickness_m * inverseSqrt(dot(sightline_m, sightline_m)));
+    let front = share_of(slice, side, seen.offset_m * seen.per_m);
+    let back = share_of(slice, side, behind_m * inverseSqrt(max(dot(behind_m, behind_m), 1e-30)));
+    let counts = seen.is_there && seen.distance_2 <= params.radius_m * params.radius_m;
+    return select(0u, sectors(front, back), counts);
 }
 
 fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
-    let centre_m = view_position(sample_px(pixel), depth_m);
-    let normal = view_normal(pixel);
+    let sight = sight_of(pixel, depth_m);
     let noise = spatial_noise(pixel);
     var open = 0.0;
     var whole = 0.0;
     for (var i = 0.0; i < params.slices; i += 1.0) {
-        let slice = slice_at(centre_m, normal, PI * (i + noise.x) / params.slices);
-        let closed = closed_sectors(slice, centre_m, pixel, 1.0, noise.y)
-            | closed_sectors(slice, centre_m, pixel, -1.0, noise.y);
-        let n = slice.normal_angle;
-        let light = slice.weight * (arc(n - 0.5 * PI, n) + arc(n + 0.5 * PI, n));
+        let angle = PI * (i + noise.x) / params.slices;
+        let slice = slice_at(sight, vec2f(cos(angle), sin(angle)), params.radius_m);
+        var closed = 0u;
+        for (var k = 0.0; k < params.steps; k += 1.0) {
+            let length_px = step_px(slice, (k + noise.y) / params.steps, params.step_power);
+            closed |= closed_by(seen_at(sight, slice, 1.0, length_px), sight, slice, 1.0);
+            closed |= closed_by(seen_at(sight, slice, -1.0, length_px), sight, slice, -1.0);
+        }
+        let light = slice.weight * slice.light;
         open += light * (1.0 - f32(countOneBits(closed)) / 32.0);
         whole += light;
     }

@@ -9,19 +9,40 @@ use wgpu::util::DeviceExt;
 use super::*;
 use crate::render::frame::FrameUniform;
 use crate::render::shader;
-use crate::render::technique::{self, SHARED_WGSL};
+use crate::render::technique::SHARED_WGSL;
+
+/// WGSL, and the parameters it reads.
+struct Source {
+    wgsl: &'static str,
+    params: String,
+}
+
+impl Source {
+    fn of(settings: &Settings) -> Self {
+        Self {
+            wgsl: settings.technique.shader.unwrap(),
+            params: settings.wgsl(),
+        }
+    }
+
+    fn of_technique(name: &str) -> Self {
+        Self::of(&Settings::from_label(name).unwrap())
+    }
+}
 
 /// Runs WGSL statements that turn `x: vec4f` into `y: vec4f`, with all that `source` declares, on each input.
 /// `bound` are uniforms that those functions read, by binding.
 fn on_gpu(
-    source: &str,
+    source: &Source,
     statements: &str,
     bound: &[(u32, &[u8])],
     inputs: &[[f32; 4]],
 ) -> Vec<[f32; 4]> {
     let gpu = renderer().gpu();
     let normals = ("normals", include_str!("../shaders/normals_full.wgsl"));
-    let variants: Vec<_> = SHARED_WGSL.iter().copied().chain([normals]).collect();
+    let variants: Vec<_> = (SHARED_WGSL.iter().copied())
+        .chain([normals, ("params", source.params.as_str())])
+        .collect();
     let entry = "
 @group(0) @binding(40) var<storage, read> twin_in: array<vec4f>;
 @group(0) @binding(41) var<storage, read_write> twin_out: array<vec4f>;
@@ -35,7 +56,7 @@ fn twin(@builtin(global_invocation_id) id: vec3u) {
     }
 }"
     .replace("STATEMENTS", statements);
-    let wgsl = shader::compose(source, &variants) + &entry;
+    let wgsl = shader::compose(source.wgsl, &variants) + &entry;
     let module = gpu
         .device
         .create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -144,26 +165,51 @@ fn slice_light(angle: f64, normal_angle: f64) -> f64 {
 
 #[test]
 fn the_light_of_a_slice_is_its_integral() {
-    let half = std::f32::consts::FRAC_PI_2;
-    let inputs: Vec<[f32; 4]> = grid(-half, half, 40)
-        .flat_map(|n| grid(n - half, n + half, 40).map(move |angle| [angle, n, 0.0, 0.0]))
+    let angles: Vec<[f64; 2]> = grid(-0.5, 0.5, 40)
+        .flat_map(|n| grid(n - 0.5, n + 0.5, 40).map(move |angle| [angle, n]))
+        .map(|turns| turns.map(|turn| f64::from(turn) * PI))
         .collect();
-    let source = technique::find("vbao").unwrap().shader.unwrap();
-    let statements = "var slice: Slice; slice.normal_angle = x.y;
-        y = vec4f(arc(x.x, x.y), share_of(x.x, slice), 0.0, 0.0);";
-    for (input, found) in inputs.iter().zip(on_gpu(source, statements, &[], &inputs)) {
-        let (angle, n) = (f64::from(input[0]), f64::from(input[1]));
+    let inputs: Vec<[f32; 4]> = (angles.iter())
+        .map(|[angle, n]| [angle.sin(), angle.cos(), n.sin(), n.cos()].map(|x| x as f32))
+        .collect();
+    let statements = "var slice: Slice;
+        slice.sin_normal = x.z;
+        slice.cos_normal = max(x.w, 0.0);
+        slice.light = whole_arc(slice);
+        slice.low = low_arc(slice);
+        let side = select(1.0, -1.0, x.x < 0.0);
+        y = vec4f(arc(slice, side, x.y), share_of(slice, side, x.xy), slice.light, 0.0);";
+    let source = Source::of_technique("vbao");
+    for (&[angle, n], found) in angles.iter().zip(on_gpu(&source, statements, &[], &inputs)) {
+        let found = found.map(f64::from);
         let exact = slice_light(angle, n);
         assert!(
-            (f64::from(found[0]) - exact).abs() < 2e-6,
-            "{input:?}: {found:?}, {exact}"
+            (found[0] - exact).abs() < 2e-6,
+            "{angle}, {n}: {found:?}, {exact}"
         );
         let below = slice_light(n - FRAC_PI_2, n);
         let whole = below + slice_light(n + FRAC_PI_2, n);
+        assert!((found[2] - whole).abs() < 2e-6, "{n}: {found:?}, {whole}");
         let share = (below + exact.copysign(angle)) / whole;
         assert!(
-            (f64::from(found[1]) - share).abs() < 4e-6,
-            "{input:?}: {found:?}, {share}"
+            (found[1] - share).abs() < 4e-6,
+            "{angle}, {n}: {found:?}, {share}"
+        );
+    }
+}
+
+#[test]
+fn the_arc_cosine_is_the_angle() {
+    let inputs: Vec<[f32; 4]> = grid(-1.0, 1.0, 20_000)
+        .map(|cosine| [cosine, 0.0, 0.0, 0.0])
+        .collect();
+    let source = Source::of_technique("gtao");
+    let found = on_gpu(&source, "y.x = arc_cosine(x.x);", &[], &inputs);
+    for (input, found) in inputs.iter().zip(found) {
+        let exact = f64::from(input[0]).acos();
+        assert!(
+            (f64::from(found[0]) - exact).abs() < 5e-7,
+            "{input:?}: {found:?}, {exact}"
         );
     }
 }
@@ -174,10 +220,10 @@ fn sectors_close_by_their_middles() {
     let inputs: Vec<[f32; 4]> = grid(0.0, 1.0, 97)
         .flat_map(|a| grid(0.0, 1.0, 53).map(move |b| [a, b, 0.0, 0.0]))
         .collect();
-    let source = technique::find("vbao").unwrap().shader.unwrap();
+    let source = Source::of_technique("vbao");
     let statements = "let mask = sectors(x.x, x.y);
         y = vec4f(f32(mask & 0xffffu), f32(mask >> 16u), 0.0, 0.0);";
-    for (input, found) in inputs.iter().zip(on_gpu(source, statements, &[], &inputs)) {
+    for (input, found) in inputs.iter().zip(on_gpu(&source, statements, &[], &inputs)) {
         let mask = found[0] as u32 | (found[1] as u32) << 16;
         let (low, high) = (input[0].min(input[1]), input[0].max(input[1]));
         for sector in 0..32 {
@@ -202,8 +248,8 @@ fn the_hilbert_curve_visits_every_pixel_and_never_jumps() {
         .map(|i| [(i % 64) as f32, (i / 64) as f32, 0.0, 0.0])
         .collect();
     let statements = "y.x = f32(hilbert_index(vec2i(x.xy)));";
-    let source = technique::find("gtao").unwrap().shader.unwrap();
-    let found = on_gpu(source, statements, &[], &inputs);
+    let source = Source::of_technique("gtao");
+    let found = on_gpu(&source, statements, &[], &inputs);
     let mut order = vec![None; 64 * 64];
     for (input, found) in inputs.iter().zip(found) {
         let place = order[found[0] as usize].replace([input[0], input[1]]);
@@ -228,8 +274,11 @@ fn octahedral_directions_come_back() {
         .collect();
     let statements = "let packed = pack2x16snorm(octahedral_encode(x.xyz));
         y = vec4f(octahedral_decode(unpack2x16snorm(packed)), 0.0);";
-    let source = "//!use octahedral\n";
-    for (input, found) in inputs.iter().zip(on_gpu(source, statements, &[], &inputs)) {
+    let source = Source {
+        wgsl: "//!use octahedral\n",
+        params: String::new(),
+    };
+    for (input, found) in inputs.iter().zip(on_gpu(&source, statements, &[], &inputs)) {
         let [a, b] =
             [*input, found].map(|v| glam::DVec3::new(v[0].into(), v[1].into(), v[2].into()));
         let apart = a.normalize().angle_between(b.normalize()).to_degrees();
@@ -253,16 +302,16 @@ fn positions_and_pixels_are_each_others_inverse() {
             })
         })
         .collect();
-    let source = technique::find("gtao").unwrap().shader.unwrap();
+    let source = Source::of_technique("gtao");
     let bound: [(u32, &[u8]); 1] = [(0, bytemuck::bytes_of(&frame))];
     let positions = on_gpu(
-        source,
+        &source,
         "y = vec4f(view_position(x.xy, x.z), 0.0);",
         &bound,
         &inputs,
     );
     let pixels = on_gpu(
-        source,
+        &source,
         "y = vec4f(project_px(view_position(x.xy, x.z)), 0.0, 0.0);",
         &bound,
         &inputs,
@@ -304,12 +353,10 @@ fn falloffs_are_those_of_their_sources() {
         settings
             .set("mode", if filion { "filion" } else { "thesis" })
             .unwrap();
-        let uniform = settings.uniform();
-        let bound: [(u32, &[u8]); 1] = [(20, bytemuck::cast_slice(&uniform))];
         let inputs: Vec<[f32; 4]> = grid(0.0, 3.0, 601).map(|d| [d, 0.0, 0.0, 0.0]).collect();
-        let source = settings.technique.shader.unwrap();
+        let source = Source::of(&settings);
         for (input, found) in
-            (inputs.iter()).zip(on_gpu(source, "y.x = openness(x.x);", &bound, &inputs))
+            (inputs.iter()).zip(on_gpu(&source, "y.x = openness(x.x);", &[], &inputs))
         {
             let d = f64::from(input[0]);
             if (d - near).abs() < 1e-6 || (d - far).abs() < 1e-6 {

@@ -1,10 +1,10 @@
-// What a technique sees: the surfaces as the picture shows them. A technique defines
-//     struct Params { ... }                      its parameters, in the order it declares them
+// What a technique sees: the surfaces as the picture shows them, and `params`, its own parameters by
+// the names it declares, which are constants of the shader.
+//!use params
 //!use frame
 //!use fullscreen
 //!use place
 //!use normals
-@group(0) @binding(20) var<uniform> params: Params;
 // The technique's own seeded points or rotations.
 @group(0) @binding(21) var<storage, read> kernel: array<vec4f>;
 // 4 x 4 seeded unit vectors, tiled over the picture.
