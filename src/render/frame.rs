@@ -51,6 +51,9 @@ pub struct FrameRequest {
     pub seed: u64,
     /// Whether occlusion that the model's author baked into textures counts too.
     pub baked_occlusion: bool,
+    /// Whether occlusion is stored as the technique gives it, in 32-bit floats, instead of
+    /// brought to 0 to 1, which would hide what is no number: for checks.
+    pub unbounded_occlusion: bool,
     /// Whether every effect runs, at weight nought where the scene does not call for it.
     /// The image is the same, byte for byte; the time is not.
     pub all_effects: bool,
@@ -79,6 +82,7 @@ impl FrameRequest {
             precision: Precision::Full,
             seed,
             baked_occlusion: scene.occlusion.baked,
+            unbounded_occlusion: false,
             all_effects: false,
         }
     }
@@ -149,6 +153,23 @@ impl FrameRequest {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Format of the occlusion target.
+    pub(super) fn occlusion_format(&self) -> wgpu::TextureFormat {
+        match self.unbounded_occlusion {
+            true => wgpu::TextureFormat::R32Float,
+            false => Formats::of(self.precision).occlusion,
+        }
+    }
+
+    /// The WGSL part `bounded`.
+    pub(super) fn bounded_part(&self) -> (&'static str, &'static str) {
+        let text = match self.unbounded_occlusion {
+            true => "fn bounded(value: f32) -> f32 { return value; }",
+            false => "fn bounded(value: f32) -> f32 { return clamp(value, 0.0, 1.0); }",
+        };
+        ("bounded", text)
     }
 
     pub(super) fn aspect(&self) -> f32 {

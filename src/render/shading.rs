@@ -134,7 +134,7 @@ impl<'a> Shading<'a> {
             }),
             occlusion: match request.handed_image() {
                 Some(image) => Some(Estimate::handed_in(gpu, image, request.precision)),
-                None => estimate("occlusion", Formats::of(request.precision).occlusion),
+                None => estimate("occlusion", request.occlusion_format()),
             },
             directional: (request.occlusion.technique.inputs.light)
                 .then(|| estimate("directional light", Formats::RADIANCE))
@@ -189,6 +189,7 @@ impl<'a> Shading<'a> {
             depth_m: &self.drawn.surfaces.depth_m,
             normals,
             normals_part: self.normals_part,
+            bounded_part: self.request.bounded_part(),
             albedo: &self.drawn.surfaces.albedo,
             light: &self.light,
             visibility: self.drawn.visibility,

@@ -4,7 +4,7 @@
 use glam::Vec3;
 
 use super::technique::{Settings, TECHNIQUES};
-use super::{FrameRequest, Precision, RenderError, Renderer};
+use super::{FrameRequest, GpuScene, Precision, RenderError, Renderer};
 use crate::scene::primitives::{cuboid, of_one_material, quad};
 use crate::scene::{Camera, Geometry, Lighting, Material, Mesh};
 
@@ -65,22 +65,42 @@ pub fn sweep(
             for precision in [Precision::Full, Precision::Thesis] {
                 let settings = scaled(Settings::defaults(technique, technique.name), case.lengths);
                 let request = request(case.camera, settings, precision);
-                let frame = renderer.render(scene, &request)?;
-                let values = frame.occlusion.map_or_else(Vec::new, |image| image.values);
+                let values = drawn(renderer, scene, &request)?;
                 let numbers = || values.iter().copied().filter(|value| value.is_finite());
+                // As the technique gives it: bringing it to 0 to 1 would hide what is no number.
+                let given = drawn(renderer, scene, &as_given(request))?;
+                let not_finite = given.iter().filter(|value| !value.is_finite()).count();
                 rows.push(StabilityRow {
                     technique: technique.name,
                     case: case.name,
                     precision,
                     lowest: numbers().fold(f32::INFINITY, f32::min),
                     highest: numbers().fold(f32::NEG_INFINITY, f32::max),
-                    not_finite: values.len() - numbers().count(),
+                    not_finite: not_finite + values.len() - numbers().count(),
                 });
             }
         }
         done(technique.name);
     }
     Ok(rows)
+}
+
+fn as_given(request: FrameRequest) -> FrameRequest {
+    FrameRequest {
+        unbounded_occlusion: true,
+        blur_radius_px: 0,
+        ..request
+    }
+}
+
+/// The occlusion of a frame; nothing where the plan needs none.
+fn drawn(
+    renderer: &Renderer,
+    scene: &GpuScene,
+    request: &FrameRequest,
+) -> Result<Vec<f32>, RenderError> {
+    let frame = renderer.render(scene, request)?;
+    Ok(frame.occlusion.map_or_else(Vec::new, |image| image.values))
 }
 
 /// The worst of each technique and precision, a line each.
@@ -135,6 +155,7 @@ fn request(camera: Camera, occlusion: Settings, precision: Precision) -> FrameRe
         precision,
         seed: 2010,
         baked_occlusion: false,
+        unbounded_occlusion: false,
         all_effects: false,
     }
 }

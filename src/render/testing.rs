@@ -33,6 +33,7 @@ pub(super) fn request(technique: &str) -> FrameRequest {
         precision: Precision::Full,
         seed: 2010,
         baked_occlusion: false,
+        unbounded_occlusion: false,
         all_effects: false,
     }
 }

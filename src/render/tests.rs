@@ -17,6 +17,7 @@ mod effects;
 mod environments;
 mod exact_occlusion;
 mod handed;
+mod hollows;
 mod light;
 mod occlusion;
 mod shadows;

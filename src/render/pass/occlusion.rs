@@ -14,6 +14,7 @@ pub(in super::super) struct OcclusionInputs<'a> {
     pub depth_m: &'a wgpu::TextureView,
     pub normals: &'a wgpu::TextureView,
     pub normals_part: (&'static str, &'static str),
+    pub bounded_part: (&'static str, &'static str),
     pub albedo: &'a wgpu::TextureView,
     pub light: &'a wgpu::Buffer,
     /// How much of the directional light arrives.
@@ -70,7 +71,7 @@ pub(in super::super) fn occlusion(
     let variants: Vec<_> = technique::SHARED_WGSL
         .iter()
         .copied()
-        .chain([("params", params.as_str())])
+        .chain([("params", params.as_str()), inputs.bounded_part])
         .chain([inputs.normals_part, sun_visibility_part(inputs.visibility)])
         .collect();
     let targets: Vec<_> = [Some(targets.occlusion), targets.directional]

@@ -42,6 +42,7 @@ fn on_gpu(
     let normals = ("normals", include_str!("../shaders/normals_full.wgsl"));
     let variants: Vec<_> = (SHARED_WGSL.iter().copied())
         .chain([normals, ("params", source.params.as_str())])
+        .chain([request("none").bounded_part()])
         .collect();
     let entry = "
 @group(0) @binding(40) var<storage, read> twin_in: array<vec4f>;

@@ -1,6 +1,7 @@
 // A technique whose answer differs by direction and colour. It defines
 //     fn directional(pixel: vec2i, depth_m: f32) -> Directional
 //!use screen
+//!use bounded
 
 struct Directional {
     // 1 is open and 0 is closed.
@@ -23,5 +24,5 @@ fn fs_occlusion(@builtin(position) position: vec4f) -> Written {
         return Written(vec4f(1.0), vec4f(0.0));
     }
     let found = directional(pixel, depth_m);
-    return Written(vec4f(clamp(found.accessibility, 0.0, 1.0)), vec4f(found.change, 0.0));
+    return Written(vec4f(bounded(found.accessibility)), vec4f(found.change, 0.0));
 }
