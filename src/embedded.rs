@@ -19,6 +19,10 @@ pub const FILES: &[(&str, &str)] = &[
         include_str!("../stimuli/validity.toml"),
     ),
     (
+        "stimuli/techniques.toml",
+        include_str!("../stimuli/techniques.toml"),
+    ),
+    (
         "stimuli/scenes/atrium.toml",
         include_str!("../stimuli/scenes/atrium.toml"),
     ),
@@ -29,6 +33,10 @@ pub const FILES: &[(&str, &str)] = &[
     (
         "stimuli/scenes/figures.toml",
         include_str!("../stimuli/scenes/figures.toml"),
+    ),
+    (
+        "stimuli/scenes/shapes.toml",
+        include_str!("../stimuli/scenes/shapes.toml"),
     ),
 ];
 

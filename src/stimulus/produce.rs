@@ -57,7 +57,37 @@ pub struct Produced {
     pub warnings: Vec<String>,
 }
 
-/// Makes `set`, or only the condition `only`, in `folder`, and writes its manifest.
+/// Where a set's files go.
+#[derive(Debug, Clone, Copy)]
+pub struct Folders<'a> {
+    /// The images and their manifest.
+    pub images: &'a Path,
+    /// The occlusion of each rendered image, if it is wanted: a 16-bit grey PNG of the same name.
+    pub occlusion: Option<&'a Path>,
+}
+
+impl<'a> Folders<'a> {
+    /// Images alone.
+    #[must_use]
+    pub fn images(images: &'a Path) -> Self {
+        Self {
+            images,
+            occlusion: None,
+        }
+    }
+
+    fn create(&self) -> Result<(), StimulusError> {
+        for folder in [Some(self.images), self.occlusion].into_iter().flatten() {
+            std::fs::create_dir_all(folder).map_err(|source| StimulusError::Unwritable {
+                path: folder.to_owned(),
+                source,
+            })?;
+        }
+        Ok(())
+    }
+}
+
+/// Makes `set`, or only the condition `only`, in `folders`, and writes its manifest.
 ///
 /// `open` opens the renderer, and is called only if something is rendered. `progress` is called
 /// with what is about to be made. An image that two conditions share is drawn once and written
@@ -68,15 +98,13 @@ pub struct Produced {
 pub fn produce(
     open: &dyn Fn() -> Result<Renderer, RenderError>,
     set: &StimulusSet,
-    folder: &Path,
+    folders: Folders<'_>,
     only: Option<&str>,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Produced, ProduceError> {
     let chosen = choose(set, only)?;
-    std::fs::create_dir_all(folder).map_err(|source| StimulusError::Unwritable {
-        path: folder.to_owned(),
-        source,
-    })?;
+    folders.create()?;
+    let folder = folders.images;
     let mut made = Made::default();
     // First what needs no GPU and fails soonest.
     for condition in &chosen {
@@ -92,7 +120,7 @@ pub fn produce(
         let renderer = open()?;
         made.adapter = Some(renderer.gpu().adapter.clone());
         for scene in 0..set.scenes.len() {
-            made.scene(&renderer, set, folder, scene, &chosen, progress)?;
+            made.scene(&renderer, set, folders, scene, &chosen, progress)?;
         }
     }
     for pair in made.pairs.values() {
@@ -245,7 +273,7 @@ impl Made {
         &mut self,
         renderer: &Renderer,
         set: &StimulusSet,
-        folder: &Path,
+        folders: Folders<'_>,
         index: usize,
         chosen: &[&SetCondition],
         progress: &mut dyn FnMut(&str),
@@ -271,7 +299,7 @@ impl Made {
         drop(geometry);
         let mut producer = Producer {
             set,
-            folder,
+            folders,
             view: renderer.view(&surfaces),
             tracer,
             drawn: BTreeMap::new(),
@@ -288,14 +316,22 @@ fn file_name(condition: &SetCondition, label: &str) -> PathBuf {
     PathBuf::from(format!("{}--{label}.png", condition.id))
 }
 
+/// An image as it is written.
+struct DrawnImage {
+    png: Vec<u8>,
+    /// Its occlusion, where that is wanted and there is any.
+    occlusion_png: Option<Vec<u8>>,
+    record: ImageRecord,
+}
+
 struct Producer<'a> {
     set: &'a StimulusSet,
-    folder: &'a Path,
+    folders: Folders<'a>,
     view: View<'a>,
     /// Where a condition asks for what it finds.
     tracer: Option<SceneTracer>,
-    /// Images by lighting and technique, as PNG bytes.
-    drawn: BTreeMap<String, (Vec<u8>, ImageRecord)>,
+    /// By lighting and technique.
+    drawn: BTreeMap<String, DrawnImage>,
 }
 
 impl Producer<'_> {
@@ -324,7 +360,7 @@ impl Producer<'_> {
     ) -> Result<ImageRecord, ProduceError> {
         let file = file_name(condition, &technique.label);
         progress(&format!("{} {}", condition.id, technique.label));
-        let path = self.folder.join(&file);
+        let path = self.folders.images.join(&file);
         let key = format!(
             "{} {} {:?}",
             pair.lighting,
@@ -335,12 +371,15 @@ impl Producer<'_> {
             let drawn = self.draw(pair, technique, &path)?;
             self.drawn.insert(key.clone(), drawn);
         }
-        let (bytes, record) = &self.drawn[&key];
-        files::write_whole(&path, bytes)?;
+        let drawn = &self.drawn[&key];
+        files::write_whole(&path, &drawn.png)?;
+        if let (Some(folder), Some(bytes)) = (self.folders.occlusion, &drawn.occlusion_png) {
+            files::write_whole(&folder.join(&file), bytes)?;
+        }
         Ok(ImageRecord {
             file,
             technique: technique.label.clone(),
-            ..record.clone()
+            ..drawn.record.clone()
         })
     }
 
@@ -349,16 +388,20 @@ impl Producer<'_> {
         pair: &RenderedPair,
         technique: &Settings,
         path: &Path,
-    ) -> Result<(Vec<u8>, ImageRecord), ProduceError> {
+    ) -> Result<DrawnImage, ProduceError> {
         let mut request = self.set.request(pair, technique);
         if let Some(tracer) = &mut self.tracer {
             request = tracer.complete(&mut self.view, request)?;
         }
         let frame = self.view.render(&request)?;
-        let bytes = files::encode_png(path, &frame.picture)?;
+        let png = files::encode_png(path, &frame.picture)?;
+        let occlusion = (frame.occlusion.as_ref()).filter(|_| self.folders.occlusion.is_some());
+        let occlusion_png = occlusion
+            .map(|k| files::encode_occlusion(path, &k.values, (k.width_px, k.height_px)))
+            .transpose()?;
         let record = ImageRecord {
             file: PathBuf::new(),
-            sha256: digest::sha256_hex(&bytes),
+            sha256: digest::sha256_hex(&png),
             width_px: frame.picture.width_px,
             height_px: frame.picture.height_px,
             technique: technique.label.clone(),
@@ -366,6 +409,10 @@ impl Producer<'_> {
             passes: frame.passes,
             source: None,
         };
-        Ok((bytes, record))
+        Ok(DrawnImage {
+            png,
+            occlusion_png,
+            record,
+        })
     }
 }
