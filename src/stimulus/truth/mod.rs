@@ -185,3 +185,6 @@ impl Maker<'_> {
         Ok((image, found))
     }
 }
+
+#[cfg(test)]
+mod tests;
