@@ -12,8 +12,7 @@ use crate::stimulus::check::{
     self, CompareError, Comparison, SAME_SHARE, SAME_WITHIN_LEVELS, changed_images,
 };
 use crate::stimulus::manifest::AdapterRecord;
-use crate::stimulus::produce::Folders;
-use crate::stimulus::{Manifest, StimulusError, StimulusSet};
+use crate::stimulus::{Folders, Manifest, StimulusError, StimulusSet};
 
 /// Check a folder of stimuli: against its manifest, its set, and what this machine renders.
 ///

@@ -12,8 +12,7 @@ use crate::analysis::{Settings, analyse};
 use crate::report::{self, Format};
 use crate::session::headless::Headless;
 use crate::session::start;
-use crate::stimulus::produce::Folders;
-use crate::stimulus::{Manifest, StimulusSet, files};
+use crate::stimulus::{Folders, Manifest, StimulusSet, files};
 use crate::{app, embedded};
 
 /// Do the whole job on the embedded study: render, run a session, analyse.

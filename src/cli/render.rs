@@ -8,9 +8,9 @@ use clap::Args;
 use super::{Failure, Verbosity};
 use crate::render::plan::GeometryFacts;
 use crate::render::{Gpu, Precision, Renderer};
-use crate::stimulus::produce::{self, Folders, ProduceError};
+use crate::stimulus::produce::{self, ProduceError};
 use crate::stimulus::set::ImageSource;
-use crate::stimulus::{Manifest, StimulusSet, files, sheet};
+use crate::stimulus::{Folders, Manifest, StimulusSet, files, sheet};
 
 /// Make the images of a stimulus set, with a manifest of where each came from.
 ///

@@ -4,6 +4,7 @@
 pub mod check;
 pub mod difference;
 pub mod files;
+mod folders;
 pub mod loaded;
 pub mod manifest;
 pub mod pair_check;
@@ -12,5 +13,6 @@ pub mod set;
 pub mod sheet;
 pub mod truth;
 
+pub use folders::Folders;
 pub use manifest::{ImageRecord, Manifest, PairRecord, Picture, StimulusError};
 pub use set::StimulusSet;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::files;
+use super::folders::Folders;
 use super::loaded::LoadedImage;
 use super::manifest::{self, AdapterRecord, ImageRecord, Manifest, PairRecord, StimulusError};
 use super::pair_check;
@@ -55,36 +56,6 @@ pub struct Produced {
     pub manifest: Manifest,
     /// What whoever made the set should look at.
     pub warnings: Vec<String>,
-}
-
-/// Where a set's files go.
-#[derive(Debug, Clone, Copy)]
-pub struct Folders<'a> {
-    /// The images and their manifest.
-    pub images: &'a Path,
-    /// The occlusion of each rendered image, if it is wanted: a 16-bit grey PNG of the same name.
-    pub occlusion: Option<&'a Path>,
-}
-
-impl<'a> Folders<'a> {
-    /// Images alone.
-    #[must_use]
-    pub fn images(images: &'a Path) -> Self {
-        Self {
-            images,
-            occlusion: None,
-        }
-    }
-
-    fn create(&self) -> Result<(), StimulusError> {
-        for folder in [Some(self.images), self.occlusion].into_iter().flatten() {
-            std::fs::create_dir_all(folder).map_err(|source| StimulusError::Unwritable {
-                path: folder.to_owned(),
-                source,
-            })?;
-        }
-        Ok(())
-    }
 }
 
 /// Makes `set`, or only the condition `only`, in `folders`, and writes its manifest.

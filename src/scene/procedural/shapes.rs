@@ -2,8 +2,8 @@
 //! plane, a step, a corner of three planes, a thin pole before a wall, and a sphere on a floor. White and
 //! without textures, so that a picture shows what a technique does and nothing else.
 //!
-//! Everything is solid and at least as thick as its plate, and every shape is farther from the others
-//! than it is large: what one does, the others do not see. Floors lie at y = 0, and what is to be seen faces +Z.
+//! Everything is solid, and every shape is more than a metre from the others. Floors lie at y = 0, and
+//! what is to be seen faces +Z.
 
 use std::f32::consts::{FRAC_PI_4, PI, TAU};
 
@@ -21,15 +21,15 @@ pub const GENERATOR: Generator = Generator {
 };
 
 /// Middle of the plane's upper side, metres.
-pub const PLANE_M: Vec3 = Vec3::new(-1.3, 0.0, 1.35);
+pub const PLANE_M: Vec3 = Vec3::new(-1.45, 0.0, 1.45);
 /// Middle of the step's foot, metres: before it lies the floor, behind and above it the tread.
-pub const STEP_M: Vec3 = Vec3::new(-2.5, 0.0, -1.7);
+pub const STEP_M: Vec3 = Vec3::new(-3.0, 0.0, -1.7);
 /// Where the corner's three planes meet, metres. Its walls go off at 45° to either side.
 pub const CORNER_M: Vec3 = Vec3::new(0.0, 0.0, -2.5);
 /// Middle of the pole's foot, metres.
-pub const POLE_M: Vec3 = Vec3::new(2.5, 0.0, -1.9);
+pub const POLE_M: Vec3 = Vec3::new(3.0, 0.0, -1.9);
 /// Where the sphere touches its floor, metres.
-pub const SPHERE_M: Vec3 = Vec3::new(1.3, 0.0, 1.35);
+pub const SPHERE_M: Vec3 = Vec3::new(1.45, 0.0, 1.45);
 
 /// Half the width of plates, metres.
 pub const HALF_WIDTH_M: f32 = 0.9;
@@ -268,7 +268,7 @@ mod tests {
         assert!(floor.z > block.z);
     }
 
-    /// So that none of them is in what another's picture shows.
+    /// By more than the reach of stimuli/scenes/shapes.toml, so that none does anything to another.
     #[test]
     fn shapes_stand_apart() {
         let scene = generate(0);
@@ -280,7 +280,7 @@ mod tests {
         for (index, a) in shapes.iter().enumerate() {
             for b in &shapes[index + 1..] {
                 let gap = (a.0 - b.1).max(b.0 - a.1);
-                assert!(gap.max_element() > 0.4, "{a:?} {b:?}");
+                assert!(gap.max_element() > 1.0, "{a:?} {b:?}");
             }
         }
     }
