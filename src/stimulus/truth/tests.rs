@@ -111,20 +111,33 @@ fn the_foot_of_the_step_is_darker_than_its_top_edge() {
     }
 }
 
+/// Points of the wall 6 cm to either side of where the pole hides it.
+fn beside_the_pole() -> Vec<Vec3> {
+    let eye_m = DRAWN["gtao"].camera.position_m;
+    let wall_z_m = POLE_M.z - POLE_TO_WALL_M;
+    line(POLE_M + Vec3::Y * 0.6, POLE_M + Vec3::Y * 0.9)
+        .map(|pole_m| {
+            let times = (wall_z_m - eye_m.z) / (pole_m.z - eye_m.z);
+            eye_m + (pole_m - eye_m) * times
+        })
+        .flat_map(|hidden_m| [-0.06, 0.06].map(|x_m| hidden_m + Vec3::X * x_m))
+        .collect()
+}
+
 /// What a thin pole does to the wall behind it. Techniques that take what they see for solid to any
-/// depth draw a dark border round it; vbao, whose occluders end, does not. Measured on the wall
-/// 6 cm beside the pole, 0.75 m up.
+/// depth draw a dark border round it. vbao's occluders end, blizzard's points in the source's reading
+/// lie before the pole or far behind it, and alchemy's samples close nothing but themselves.
 #[test]
 fn the_pole_has_a_halo_where_occluders_have_no_thickness() {
-    let beside = POLE_M + Vec3::new(-0.06, 0.7, -POLE_TO_WALL_M);
-    let truth = DRAWN["ray-traced"].mean(line(beside, beside + Vec3::Y * 0.1));
-    let too_closed = |label: &str| truth - DRAWN[label].mean(line(beside, beside + Vec3::Y * 0.1));
+    let mean = |label: &str| DRAWN[label].mean(beside_the_pole());
+    let too_closed = |label: &str| mean("ray-traced") - mean(label);
     for (label, at_least) in [
-        ("ray-march30", 0.12),
-        ("ray-march30-filion", 0.07),
-        ("crytek24", 0.15),
-        ("gtao", 0.03),
-        ("hbao", 0.02),
+        ("crytek24", 0.25),
+        ("blizzard24", 0.12),
+        ("ray-march30", 0.2),
+        ("ray-march30-filion", 0.1),
+        ("gtao", 0.08),
+        ("hbao", 0.08),
     ] {
         assert!(
             too_closed(label) > at_least,
@@ -132,9 +145,9 @@ fn the_pole_has_a_halo_where_occluders_have_no_thickness() {
             too_closed(label)
         );
     }
-    for label in ["vbao", "ssdo", "blizzard24-filion"] {
+    for label in ["vbao", "blizzard24-filion", "alchemy"] {
         assert!(
-            too_closed(label).abs() < 0.025,
+            too_closed(label).abs() < 0.03,
             "{label}: {}",
             too_closed(label)
         );
