@@ -19,6 +19,10 @@ pub const FILES: &[(&str, &str)] = &[
         include_str!("../stimuli/validity.toml"),
     ),
     (
+        "stimuli/techniques.toml",
+        include_str!("../stimuli/techniques.toml"),
+    ),
+    (
         "stimuli/scenes/atrium.toml",
         include_str!("../stimuli/scenes/atrium.toml"),
     ),
@@ -29,6 +33,10 @@ pub const FILES: &[(&str, &str)] = &[
     (
         "stimuli/scenes/figures.toml",
         include_str!("../stimuli/scenes/figures.toml"),
+    ),
+    (
+        "stimuli/scenes/shapes.toml",
+        include_str!("../stimuli/scenes/shapes.toml"),
     ),
 ];
 
@@ -67,7 +75,7 @@ mod tests {
     use super::*;
     use crate::protocol::Protocol;
     use crate::render::plan::{FramePlan, GeometryFacts};
-    use crate::render::technique::Settings;
+    use crate::render::technique::{Settings, TECHNIQUES};
     use crate::scene::ModelLights;
     use crate::stimulus::StimulusSet;
     use crate::stimulus::set::RenderedPair;
@@ -178,6 +186,31 @@ mod tests {
                 });
                 let found = passes_of(set, pair, technique);
                 assert_eq!(found, expected, "{} {}", condition.id, technique.label);
+            }
+        }
+    }
+
+    /// So that a new technique is not left out of the set that shows them all, nor one of the
+    /// two readings of the thesis' techniques; and each stands beside the same truth.
+    #[test]
+    fn the_set_of_techniques_has_every_technique() {
+        let dir = tempfile::tempdir().unwrap();
+        unpack(dir.path()).unwrap();
+        let set = StimulusSet::load(&dir.path().join("stimuli/techniques.toml")).unwrap();
+        let firsts = || set.rendered().map(|(_, pair)| &pair.first);
+        for technique in TECHNIQUES.iter().filter(|t| !t.is_handed_in()) {
+            let shown = firsts().filter(|first| first.technique.name == technique.name);
+            let modes = technique.parameter("mode").map_or(1, |_| 2);
+            assert_eq!(shown.count(), modes, "{}", technique.name);
+        }
+        for (condition, pair) in set.rendered() {
+            assert_eq!(pair.second.label, "ray-traced", "{}", condition.id);
+            assert_eq!(pair.second.get("d_max_m"), 1.0, "{}", condition.id);
+            // No technique looks farther than the truth does.
+            for reach in ["radius_m", "reach_m"] {
+                if pair.first.technique.parameter(reach).is_some() {
+                    assert!(pair.first.get(reach) <= 1.0, "{} {reach}", condition.id);
+                }
             }
         }
     }

@@ -198,3 +198,29 @@ fn bad_settings_are_one_message() {
         assert!(!study.path("truth").exists(), "{args:?} left something");
     }
 }
+
+/// `render --occlusion` writes what each image is shaded with, under the image's name: of the truth
+/// what `truth` finds.
+#[test]
+fn the_occlusion_of_each_image_can_be_had() {
+    let study = Study::new();
+    let render = ["render", "set.toml", "--out", "images", "--occlusion"];
+    study.succeed(&[&render[..], &["occlusion"]].concat());
+    // At this size the blur takes most of gtao's crease away.
+    for (label, expected) in [("gtao18", 0.5..0.95), ("ray-traced", 0.45..0.65)] {
+        let occlusion = study.occlusion("occlusion", label);
+        assert_eq!(occlusion.dimensions(), (64, 48));
+        let grey = |y: u32| f64::from(occlusion.get_pixel(32, y)[0]) / 65535.0;
+        let darkest = (0..48).map(grey).fold(1.0, f64::min);
+        assert!(expected.contains(&darkest), "{label}: {darkest}");
+    }
+    study.succeed(&["truth", "set.toml", "--error", "0.01", "--out", "truth"]);
+    let [handed, traced] = ["occlusion", "truth"].map(|f| study.occlusion(f, "ray-traced"));
+    for (handed, traced) in handed.pixels().zip(traced.pixels()) {
+        // The renderer stores it as a half float.
+        assert!(handed[0].abs_diff(traced[0]) <= 32, "{handed:?} {traced:?}");
+    }
+    // The images' own folder is refused before anything is drawn.
+    let refused = study.greyfield(&[&render[..], &["images"]].concat());
+    assert_eq!(refused.status.code(), Some(2));
+}

@@ -12,7 +12,7 @@ use crate::stimulus::check::{
     self, CompareError, Comparison, SAME_SHARE, SAME_WITHIN_LEVELS, changed_images,
 };
 use crate::stimulus::manifest::AdapterRecord;
-use crate::stimulus::{Manifest, StimulusError, StimulusSet};
+use crate::stimulus::{Folders, Manifest, StimulusError, StimulusSet};
 
 /// Check a folder of stimuli: against its manifest, its set, and what this machine renders.
 ///
@@ -86,7 +86,8 @@ pub fn run(args: &Check, verbosity: Verbosity) -> Result<(), Failure> {
         (None, Some(set)) if !args.no_render => {
             let scratch = Scratch::new()?;
             let adapter = args.adapter.as_deref();
-            let again = render::draw(&set, &scratch.0, None, adapter, verbosity)?.manifest;
+            let again =
+                render::draw(&set, Folders::images(&scratch.0), None, adapter, verbosity)?.manifest;
             compare(here, (&again, &scratch.0), args.diff.as_deref(), verbosity)
         }
         _ => Ok(()),

@@ -12,7 +12,7 @@ use crate::analysis::{Settings, analyse};
 use crate::report::{self, Format};
 use crate::session::headless::Headless;
 use crate::session::start;
-use crate::stimulus::{Manifest, StimulusSet, files};
+use crate::stimulus::{Folders, Manifest, StimulusSet, files};
 use crate::{app, embedded};
 
 /// Do the whole job on the embedded study: render, run a session, analyse.
@@ -106,7 +106,14 @@ fn stimuli(set: &StimulusSet, args: &Demo, verbosity: Verbosity) -> Result<PathB
         return Ok(folder);
     }
     let started = std::time::Instant::now();
-    let manifest = render::draw(set, &folder, None, args.adapter.as_deref(), verbosity)?.manifest;
+    let manifest = render::draw(
+        set,
+        Folders::images(&folder),
+        None,
+        args.adapter.as_deref(),
+        verbosity,
+    )?
+    .manifest;
     let adapter = manifest
         .adapter
         .map_or_else(String::new, |adapter| format!(" on {}", adapter.name));

@@ -13,7 +13,7 @@ use crate::render::{Gpu, Precision, Renderer};
 use crate::stimulus::produce::{self, ProduceError};
 use crate::stimulus::progress::Progress;
 use crate::stimulus::set::ImageSource;
-use crate::stimulus::{Manifest, StimulusSet, files, sheet};
+use crate::stimulus::{Folders, Manifest, StimulusSet, files, sheet};
 
 /// Make the images of a stimulus set, with a manifest of where each came from.
 ///
@@ -21,7 +21,7 @@ use crate::stimulus::{Manifest, StimulusSet, files, sheet};
 /// a set of files only needs no graphics adapter.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example:\n  greyfield render stimuli/thesis-2010.toml\n  greyfield render stimuli/thesis-2010.toml --explain --only dragon-low"
+    after_help = "Example:\n  greyfield render stimuli/thesis-2010.toml\n  greyfield render stimuli/thesis-2010.toml --explain --only dragon-low\n  greyfield render stimuli/techniques.toml --occlusion occlusion"
 )]
 pub struct RenderArgs {
     /// The set: a TOML file with its conditions.
@@ -48,6 +48,10 @@ pub struct RenderArgs {
     /// Print what each step took.
     #[arg(long)]
     timings: bool,
+    /// Also write what each image's occlusion is, as it is shaded with: 16-bit grey PNG, linear,
+    /// 65535 open, under the image's own name in this folder.
+    #[arg(long, value_name = "DIR")]
+    occlusion: Option<PathBuf>,
     /// Also draw every pair, small, on one picture: a row a condition.
     #[arg(long, value_name = "FILE.png")]
     sheet: Option<PathBuf>,
@@ -75,9 +79,19 @@ pub fn run(args: &RenderArgs, verbosity: Verbosity) -> Result<(), Failure> {
     if args.explain {
         return explain(&set, args.only.as_deref(), &folder);
     }
+    if args.occlusion.as_ref() == Some(&folder) {
+        return Err(Failure::bad_input(anyhow::anyhow!(
+            "--occlusion {}: the images themselves go there; name another folder",
+            folder.display()
+        )));
+    }
+    let folders = Folders {
+        occlusion: args.occlusion.as_deref(),
+        ..Folders::images(&folder)
+    };
     let drawn = draw(
         &set,
-        &folder,
+        folders,
         args.only.as_deref(),
         args.adapter.as_deref(),
         verbosity,
@@ -112,7 +126,7 @@ pub struct Drawn {
 /// [`Failure`]: exit code 2 for a condition that is not there, 1 for adapter and disk.
 pub fn draw(
     set: &StimulusSet,
-    folder: &Path,
+    folders: Folders<'_>,
     only: Option<&str>,
     adapter: Option<&str>,
     verbosity: Verbosity,
@@ -145,7 +159,7 @@ pub fn draw(
         pixels: &pixels,
     };
     let produced =
-        produce::produce(&open, set, folder, only, &progress).map_err(|error| match error {
+        produce::produce(&open, set, folders, only, &progress).map_err(|error| match error {
             ProduceError::NoSuchCondition { .. }
             | ProduceError::Source(_)
             | ProduceError::Pair { .. } => Failure::bad_input(error),

@@ -32,6 +32,29 @@ pub fn encode_png(path: &Path, picture: &Picture) -> Result<Vec<u8>, StimulusErr
     Ok(bytes)
 }
 
+/// Occlusion as the bytes of a 16-bit grey PNG, linear: 0 closed, 65535 open.
+///
+/// # Errors
+/// [`StimulusError::Image`] if there are not as many values as the size says.
+pub fn encode_occlusion(
+    path: &Path,
+    occlusion: &[f32],
+    (width_px, height_px): (u32, u32),
+) -> Result<Vec<u8>, StimulusError> {
+    let grey: Vec<u8> = occlusion
+        .iter()
+        .flat_map(|value| ((value.clamp(0.0, 1.0) * 65535.0).round() as u16).to_ne_bytes())
+        .collect();
+    let mut bytes = Vec::new();
+    image::codecs::png::PngEncoder::new(&mut bytes)
+        .write_image(&grey, width_px, height_px, image::ExtendedColorType::L16)
+        .map_err(|error| StimulusError::Image {
+            path: path.to_owned(),
+            message: format!("cannot be encoded: {error}"),
+        })?;
+    Ok(bytes)
+}
+
 /// Writes a file whole or not at all.
 ///
 /// # Errors

@@ -4,6 +4,7 @@
 pub mod check;
 pub mod difference;
 pub mod files;
+mod folders;
 pub mod loaded;
 pub mod manifest;
 pub mod pair_check;
@@ -13,5 +14,6 @@ pub mod set;
 pub mod sheet;
 pub mod truth;
 
+pub use folders::Folders;
 pub use manifest::{ImageRecord, Manifest, PairRecord, Picture, StimulusError};
 pub use set::StimulusSet;

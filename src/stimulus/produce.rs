@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::files;
+use super::folders::Folders;
 use super::loaded::LoadedImage;
 use super::manifest::{self, AdapterRecord, ImageRecord, Manifest, PairRecord, StimulusError};
 use super::pair_check;
@@ -58,7 +59,7 @@ pub struct Produced {
     pub warnings: Vec<String>,
 }
 
-/// Makes `set`, or only the condition `only`, in `folder`, and writes its manifest.
+/// Makes `set`, or only the condition `only`, in `folders`, and writes its manifest.
 ///
 /// `open` opens the renderer, and is called only if something is rendered. `progress` is told
 /// what is about to be made. An image that two conditions share is drawn once and written
@@ -69,15 +70,13 @@ pub struct Produced {
 pub fn produce(
     open: &dyn Fn() -> Result<Renderer, RenderError>,
     set: &StimulusSet,
-    folder: &Path,
+    folders: Folders<'_>,
     only: Option<&str>,
     progress: &Progress<'_>,
 ) -> Result<Produced, ProduceError> {
     let chosen = choose(set, only)?;
-    std::fs::create_dir_all(folder).map_err(|source| StimulusError::Unwritable {
-        path: folder.to_owned(),
-        source,
-    })?;
+    folders.create()?;
+    let folder = folders.images;
     let mut made = Made::default();
     // First what needs no GPU and fails soonest.
     for condition in &chosen {
@@ -93,7 +92,7 @@ pub fn produce(
         let renderer = open()?;
         made.adapter = Some(renderer.gpu().adapter.clone());
         for scene in 0..set.scenes.len() {
-            made.scene(&renderer, set, folder, scene, &chosen, progress)?;
+            made.scene(&renderer, set, folders, scene, &chosen, progress)?;
         }
     }
     for pair in made.pairs.values() {
@@ -246,7 +245,7 @@ impl Made {
         &mut self,
         renderer: &Renderer,
         set: &StimulusSet,
-        folder: &Path,
+        folders: Folders<'_>,
         index: usize,
         chosen: &[&SetCondition],
         progress: &Progress<'_>,
@@ -272,7 +271,7 @@ impl Made {
         drop(geometry);
         let mut producer = Producer {
             set,
-            folder,
+            folders,
             view: renderer.view(&surfaces),
             tracer,
             drawn: BTreeMap::new(),
@@ -289,14 +288,22 @@ fn file_name(condition: &SetCondition, label: &str) -> PathBuf {
     PathBuf::from(format!("{}--{label}.png", condition.id))
 }
 
+/// An image as it is written.
+struct DrawnImage {
+    png: Vec<u8>,
+    /// Its occlusion, where that is wanted and there is any.
+    occlusion_png: Option<Vec<u8>>,
+    record: ImageRecord,
+}
+
 struct Producer<'a> {
     set: &'a StimulusSet,
-    folder: &'a Path,
+    folders: Folders<'a>,
     view: View<'a>,
     /// Where a condition asks for what it finds.
     tracer: Option<SceneTracer>,
-    /// Images by lighting and technique, as PNG bytes.
-    drawn: BTreeMap<String, (Vec<u8>, ImageRecord)>,
+    /// By lighting and technique.
+    drawn: BTreeMap<String, DrawnImage>,
 }
 
 impl Producer<'_> {
@@ -325,7 +332,7 @@ impl Producer<'_> {
     ) -> Result<ImageRecord, ProduceError> {
         let file = file_name(condition, &technique.label);
         (progress.step)(&format!("{} {}", condition.id, technique.label));
-        let path = self.folder.join(&file);
+        let path = self.folders.images.join(&file);
         let key = format!(
             "{} {} {:?}",
             pair.lighting,
@@ -336,12 +343,15 @@ impl Producer<'_> {
             let drawn = self.draw(pair, technique, &path, progress)?;
             self.drawn.insert(key.clone(), drawn);
         }
-        let (bytes, record) = &self.drawn[&key];
-        files::write_whole(&path, bytes)?;
+        let drawn = &self.drawn[&key];
+        files::write_whole(&path, &drawn.png)?;
+        if let (Some(folder), Some(bytes)) = (self.folders.occlusion, &drawn.occlusion_png) {
+            files::write_whole(&folder.join(&file), bytes)?;
+        }
         Ok(ImageRecord {
             file,
             technique: technique.label.clone(),
-            ..record.clone()
+            ..drawn.record.clone()
         })
     }
 
@@ -351,16 +361,20 @@ impl Producer<'_> {
         technique: &Settings,
         path: &Path,
         progress: &Progress<'_>,
-    ) -> Result<(Vec<u8>, ImageRecord), ProduceError> {
+    ) -> Result<DrawnImage, ProduceError> {
         let mut request = self.set.request(pair, technique);
         if let Some(tracer) = &mut self.tracer {
             request = tracer.complete(&mut self.view, request, progress)?;
         }
         let frame = self.view.render(&request)?;
-        let bytes = files::encode_png(path, &frame.picture)?;
+        let png = files::encode_png(path, &frame.picture)?;
+        let occlusion = (frame.occlusion.as_ref()).filter(|_| self.folders.occlusion.is_some());
+        let occlusion_png = occlusion
+            .map(|k| files::encode_occlusion(path, &k.values, (k.width_px, k.height_px)))
+            .transpose()?;
         let record = ImageRecord {
             file: PathBuf::new(),
-            sha256: digest::sha256_hex(&bytes),
+            sha256: digest::sha256_hex(&png),
             width_px: frame.picture.width_px,
             height_px: frame.picture.height_px,
             technique: technique.label.clone(),
@@ -368,6 +382,10 @@ impl Producer<'_> {
             passes: frame.passes,
             source: None,
         };
-        Ok((bytes, record))
+        Ok(DrawnImage {
+            png,
+            occlusion_png,
+            record,
+        })
     }
 }

@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::shapes::{beside_wall, floor, geometry, hemisphere, point, sphere, tube, wall};
 use super::*;
+use crate::scene::procedural;
 
 const BOTH: [Weighting; 2] = [Weighting::Cosine, Weighting::Uniform];
 
@@ -114,4 +115,49 @@ fn a_leaning_normal_sees_its_own_surface() {
     leaning.normal = Vec3::new(0.6, 0.8, 0.0);
     let found = at_points(&plane, vec![leaning], &precise(Weighting::Cosine));
     assert_near(found.occlusion[0], 0.9, 1e-3, "leaning");
+}
+
+/// The meshes of the generator `shapes` whose name begins so.
+fn of_shapes(shape: &str) -> Geometry {
+    let mut scene = (procedural::shapes::GENERATOR.generate)(0);
+    scene.meshes.retain(|mesh| mesh.name.starts_with(shape));
+    scene
+}
+
+/// A floor point between two walls that meet at a right angle loses what each of the two hides, two
+/// rectangles at its foot each; and they hide nothing of each other.
+#[test]
+fn the_corner_of_the_shapes_is_known() {
+    let corner = of_shapes("corner");
+    for from_walls_m in [0.1_f64, 0.4, 0.9] {
+        let across = (std::f64::consts::SQRT_2 * from_walls_m) as f32;
+        let above = procedural::shapes::CORNER_M + Vec3::new(0.0, 0.5, across);
+        let hidden = |half_width_m: f64| {
+            1.0 - beside_wall(
+                from_walls_m,
+                half_width_m,
+                procedural::shapes::CORNER_HEIGHT_M.into(),
+            )
+        };
+        let length_m = f64::from(procedural::shapes::CORNER_LENGTH_M);
+        let exact = 1.0 - hidden(from_walls_m) - hidden(length_m - from_walls_m);
+        let at = point(&corner, above, Vec3::NEG_Y);
+        let found = at_points(&corner, vec![at], &precise(Weighting::Cosine));
+        assert_near(found.occlusion[0], exact, 1e-3, "corner");
+    }
+}
+
+/// A sphere that rests on the floor hides (R/d)² cosθ = (R/d)³ of it, d from its centre. It is
+/// of flat pieces, a thousandth smaller.
+#[test]
+fn the_floor_round_the_sphere_of_the_shapes_is_known() {
+    let sphere = of_shapes("sphere");
+    let radius_m = procedural::shapes::SPHERE_RADIUS_M;
+    for away_m in [0.5_f32, 0.6, 0.8] {
+        let above = procedural::shapes::SPHERE_M + Vec3::new(away_m, 0.5, 0.0);
+        let at = point(&sphere, above, Vec3::NEG_Y);
+        let exact = 1.0 - f64::from(radius_m / radius_m.hypot(away_m)).powi(3);
+        let found = at_points(&sphere, vec![at], &precise(Weighting::Cosine));
+        assert_near(found.occlusion[0], exact, 2e-3, "sphere");
+    }
 }

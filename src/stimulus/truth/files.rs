@@ -3,28 +3,18 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use exr::prelude::{Image, SpecificChannels, WritableImage};
-use image::ImageEncoder;
-
+use super::super::files::encode_occlusion;
 use super::super::manifest::StimulusError;
 use crate::reference::Estimates;
+use exr::prelude::{Image, SpecificChannels, WritableImage};
 
 /// The occlusion as a 16-bit grey PNG: 0 closed, 65535 open, linear.
 pub(super) fn png(
     path: &Path,
     estimates: &Estimates,
-    (width, height): (u32, u32),
+    size_px: (u32, u32),
 ) -> Result<Vec<u8>, StimulusError> {
-    let grey: Vec<u8> = estimates
-        .occlusion
-        .iter()
-        .flat_map(|value| ((value.clamp(0.0, 1.0) * 65535.0).round() as u16).to_ne_bytes())
-        .collect();
-    let mut bytes = Vec::new();
-    image::codecs::png::PngEncoder::new(&mut bytes)
-        .write_image(&grey, width, height, image::ExtendedColorType::L16)
-        .map_err(|error| not_encoded(path, &error))?;
-    Ok(bytes)
+    encode_occlusion(path, &estimates.occlusion, size_px)
 }
 
 /// The occlusion and its standard error as 32-bit float channels `occlusion` and

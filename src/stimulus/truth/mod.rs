@@ -178,3 +178,6 @@ impl Maker<'_> {
         Ok((image, found))
     }
 }
+
+#[cfg(test)]
+mod tests;
