@@ -48,7 +48,8 @@ fn measure(name: &str) -> std::io::Result<()> {
     let built_s = started.elapsed().as_secs_f64();
     let blocked = |ray: &[Vec3]| {
         let ray = node::Ray::new(ray[0], ray[1]);
-        tree.walk::<true>(&ray, f32::INFINITY, &|_, _| true).is_some()
+        tree.walk::<true>(&ray, f32::INFINITY, &|_, _| true)
+            .is_some()
     };
     let mut least_s = f64::INFINITY;
     let mut hits = 0;
