@@ -52,12 +52,15 @@ pub(in super::super) fn occlusion(
     let points = (technique.kernel)(settings, inputs.seed);
     let kernel = vectors(gpu, "occlusion kernel", &points);
     let proxies = vectors(gpu, "proxies", inputs.proxies);
+    // Nearest, clamped to the edge.
+    let nearest = (gpu.device).create_sampler(&wgpu::SamplerDescriptor::default());
     let mut bindings = Bindings::default()
         .uniform(0, inputs.frame)
         .texture(1, inputs.depth_m, false)
         .texture(2, inputs.normals, false)
         .storage(21, &kernel)
-        .uniform(22, &noise);
+        .uniform(22, &noise)
+        .sampler(24, &nearest, wgpu::SamplerBindingType::NonFiltering);
     if technique.inputs.light {
         bindings = bindings
             .texture(3, inputs.albedo, false)

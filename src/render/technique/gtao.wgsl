@@ -5,8 +5,8 @@
 // The higher of two horizons' cosines: the one so far, and that of a sample.
 fn raised(highest: f32, lowest: f32, seen: Seen) -> f32 {
     // What is farther off counts less, and what is out of reach not at all.
-    let range_m = max(params.falloff * params.radius_m, 1e-20);
-    let near = clamp((params.radius_m - sqrt(seen.distance_2)) / range_m, 0.0, 1.0);
+    let per_m = 1.0 / max(params.falloff * params.radius_m, 1e-20);
+    let near = saturate((params.radius_m - sqrt(seen.distance_2)) * per_m);
     let rise = mix(lowest, seen.offset_m.y * seen.per_m, near);
     return select(highest, max(highest, rise), seen.is_there);
 }

@@ -22,10 +22,13 @@ struct Sight {
     // A metre to the right, and up, in pixels at the point.
     right_px: vec2f,
     up_px: vec2f,
+    // One over the depth.
+    per_depth: f32,
     // What samples need of the frame, read once.
     size_px: vec2u,
     diagonal_px: f32,
-    texels: i32,
+    at_px: vec2f,
+    per_px: vec2f,
     far_m: f32,
 }
 
@@ -49,9 +52,11 @@ fn sight_of(pixel: vec2i, depth_m: f32) -> Sight {
     let slope = centre_m.xy / depth_m;
     sight.right_px = (right.xy + slope * right.z) * to_px;
     sight.up_px = (up.xy + slope * up.z) * to_px;
+    sight.per_depth = 1.0 / depth_m;
     sight.size_px = vec2u(frame.size_px);
     sight.diagonal_px = length(frame.size_px);
-    sight.texels = frame.samples;
+    sight.at_px = sample_px(pixel);
+    sight.per_px = 1.0 / frame.size_px;
     sight.far_m = frame.far_m;
     return sight;
 }
@@ -61,9 +66,8 @@ struct Slice {
     // What a step of one pixel adds across the line of sight, and out of the slice, at 1 m.
     across: vec2f,
     out: vec2f,
-    // The same, once brought back into the slice: across, and towards the eye.
-    within_across: vec2f,
-    within_view: vec2f,
+    // What a metre out of the slice becomes once brought back into it: across, and towards the eye.
+    drag: vec2f,
     // Sine and cosine of the angle from the eye to the normal's part within the slice, and that part's length.
     sin_normal: f32,
     cos_normal: f32,
@@ -86,9 +90,7 @@ fn slice_at(sight: Sight, turn: vec2f, radius_m: f32) -> Slice {
     let beside = turn.y * sight.normal.x - turn.x * sight.normal.y;
     // What lies beside the slice is brought into it along the surface, which keeps its height above
     // the surface: so a plane never hides itself, however a sample is rounded to a pixel.
-    let drag = beside / max(1.0 - beside * beside, 1e-6);
-    slice.within_across = slice.across + slice.out * (drag * along);
-    slice.within_view = sight.view + slice.out * (drag * sight.normal.z);
+    slice.drag = vec2f(along, sight.normal.z) * (beside / max(1.0 - beside * beside, 1e-6));
     slice.weight = sqrt(along * along + sight.normal.z * sight.normal.z);
     // A normal map may turn the normal away from the eye: then it lies across.
     let scale = 1.0 / max(slice.weight, 1e-6);
@@ -125,21 +127,21 @@ struct Seen {
 // The sample that far from the pixel, on one side of the slice (1 or -1).
 fn seen_at(sight: Sight, slice: Slice, side: f32, length_px: f32) -> Seen {
     var seen: Seen;
-    let step = floor(slice.direction * (side * length_px) + 0.5);
-    let tap = sight.pixel + vec2i(step);
-    let depth_m = textureLoad(depth_texture, tap * sight.texels + sight.texels / 2, 0).x;
+    let to_px = slice.direction * (side * length_px);
+    // Whole numbers of a float that large are its last bits: rounded, without a conversion.
+    let step_px = bitcast<vec2i>(to_px + 12582912.0) - 0x4b400000;
+    let step = vec2f(step_px);
+    let tap = sight.pixel + step_px;
+    let at = (sight.at_px + step) * sight.per_px;
+    let depth_m = textureSampleLevel(depth_texture, nearest, at, 0.0).x;
     seen.depth_m = depth_m;
-    let nearer_m = sight.distance_m * ((sight.depth_m - depth_m) / sight.depth_m);
     let true_m = vec3f(
         depth_m * dot(step, slice.across),
         depth_m * dot(step, slice.out),
-        depth_m * dot(step, sight.view) + nearer_m,
-    );
-    seen.offset_m = vec2f(
-        depth_m * dot(step, slice.within_across),
-        depth_m * dot(step, slice.within_view) + nearer_m,
+        depth_m * dot(step, sight.view) + (sight.distance_m * ((sight.depth_m - depth_m) * sight.per_depth)),
     );
     seen.distance_2 = dot(true_m, true_m);
+    seen.offset_m = true_m.xz + true_m.y * slice.drag;
     let offset_2 = dot(seen.offset_m, seen.offset_m);
     seen.per_m = inverseSqrt(max(offset_2, 1e-30));
     // A sample rounded to a pixel may come to lie on the slice's other side, or hardly in the slice

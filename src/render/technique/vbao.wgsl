@@ -2,32 +2,53 @@
 // Occluders have a thickness, so that light passes behind them.
 //!use slices
 
-// Where a direction of the slice, to one side (1 or -1), falls among its light, 0 to 1. The paper counts
-// sectors of equal angle; these are of equal cosine-weighted light, so that counting them is the
-// integral. What lies below the surface is at the light's end.
-fn share_of(slice: Slice, side: f32, direction: vec2f) -> f32 {
-    let share = (slice.low + side * arc(slice, side, direction.y)) / slice.light;
-    let is_below = dot(direction, vec2f(slice.sin_normal, slice.cos_normal)) < 0.0;
-    return clamp(select(share, side, is_below), 0.0, 1.0);
+// What a slice's angles and its light have to do with each other.
+struct Shares {
+    // The share on the side of -1, and what the square of a sine and an arc count by.
+    low: f32,
+    by_square: f32,
+    by_arc: f32,
 }
 
-// The sectors between two shares, each in or out by its middle.
+fn shares_of(slice: Slice) -> Shares {
+    let scale = 0.5 / slice.light;
+    return Shares(slice.low / slice.light, scale * slice.cos_normal, scale * slice.sin_normal);
+}
+
+// Where a direction of the slice, to one side (1 or -1), falls among its light, 0 to 1 but for rounding. The
+// paper counts sectors of equal angle; these are of equal cosine-weighted light, so that counting them is the
+// integral. What lies below the surface is at the light's end.
+fn share_of(shares: Shares, slice: Slice, side: f32, direction: vec2f) -> f32 {
+    let sine = side * direction.x;
+    let turned = arc_cosine(direction.y) - sine * direction.y;
+    let share = shares.low + side * shares.by_square * sine * sine + shares.by_arc * turned;
+    let is_below = dot(direction, vec2f(slice.sin_normal, slice.cos_normal)) < 0.0;
+    return select(share, max(side, 0.0), is_below);
+}
+
+// How many sectors of 32 lie before a share, each in or out by its middle. Whole numbers of a float that large
+// are its last bits: rounded, without a conversion.
+fn sectors_before(share: f32) -> u32 {
+    return bitcast<u32>(32.0 * share + 8388608.0) & 63u;
+}
+
+// The first sectors, 0 to 32 of them.
+fn first_sectors(count: u32) -> u32 {
+    // A shift by 32 would be undefined.
+    return select((1u << (count & 31u)) - 1u, 0xffffffffu, count > 31u);
+}
+
 fn sectors(from_share: f32, to_share: f32) -> u32 {
-    let first = u32(round(32.0 * min(from_share, to_share)));
-    let last = u32(round(32.0 * max(from_share, to_share)));
-    // The lowest `count` bits; a shift by 32 would be undefined.
-    let count = last - first;
-    let ones = select((1u << min(count, 31u)) - 1u, 0xffffffffu, count == 32u);
-    return select(ones << min(first, 31u), 0u, count == 0u);
+    return first_sectors(sectors_before(from_share)) ^ first_sectors(sectors_before(to_share));
 }
 
 // The sectors that what is seen closes.
-fn closed_by(seen: Seen, sight: Sight, slice: Slice, side: f32) -> u32 {
+fn closed_by(seen: Seen, sight: Sight, slice: Slice, shares: Shares, side: f32) -> u32 {
     // Its back lies behind it on its own line of sight.
     let sightline_m = seen.offset_m - vec2f(0.0, sight.distance_m);
     let behind_m = seen.offset_m + sightline_m * (params.thickness_m * inverseSqrt(dot(sightline_m, sightline_m)));
-    let front = share_of(slice, side, seen.offset_m * seen.per_m);
-    let back = share_of(slice, side, behind_m * inverseSqrt(max(dot(behind_m, behind_m), 1e-30)));
+    let front = share_of(shares, slice, side, seen.offset_m * seen.per_m);
+    let back = share_of(shares, slice, side, behind_m * inverseSqrt(max(dot(behind_m, behind_m), 1e-30)));
     let counts = seen.is_there && seen.distance_2 <= params.radius_m * params.radius_m;
     return select(0u, sectors(front, back), counts);
 }
@@ -40,11 +61,12 @@ fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
     for (var i = 0.0; i < params.slices; i += 1.0) {
         let angle = PI * (i + noise.x) / params.slices;
         let slice = slice_at(sight, vec2f(cos(angle), sin(angle)), params.radius_m);
+        let shares = shares_of(slice);
         var closed = 0u;
         for (var k = 0.0; k < params.steps; k += 1.0) {
             let length_px = step_px(slice, (k + noise.y) / params.steps, params.step_power);
-            closed |= closed_by(seen_at(sight, slice, 1.0, length_px), sight, slice, 1.0);
-            closed |= closed_by(seen_at(sight, slice, -1.0, length_px), sight, slice, -1.0);
+            closed |= closed_by(seen_at(sight, slice, 1.0, length_px), sight, slice, shares, 1.0);
+            closed |= closed_by(seen_at(sight, slice, -1.0, length_px), sight, slice, shares, -1.0);
         }
         let light = slice.weight * slice.light;
         open += light * (1.0 - f32(countOneBits(closed)) / 32.0);

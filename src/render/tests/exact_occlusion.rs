@@ -74,6 +74,7 @@ fn band_bound(precision: Precision) -> f32 {
 /// An even plane has no stripes, however far it is: depths and normals are stored finely enough.
 #[test]
 fn a_plane_has_no_bands() {
+    let mut bands = Vec::new();
     for technique in TECHNIQUES.iter().filter(|t| t.shader.is_some()) {
         for distance_m in [1.0_f32, 1000.0, 100_000.0] {
             for precision in [Precision::Full, Precision::Thesis] {
@@ -103,15 +104,13 @@ fn a_plane_has_no_bands() {
                     .collect();
                 let steps = means.windows(2).map(|rows| (rows[0] - rows[1]).abs());
                 let largest = steps.fold(0.0, f32::max);
-                println!("{} {distance_m} {precision:?} {largest:.5}", technique.name);
-                assert!(
-                    largest <= band_bound(precision),
-                    "{} from {distance_m} m, {precision:?}: {largest}",
-                    technique.name
-                );
+                if largest > band_bound(precision) {
+                    bands.push((technique.name, distance_m, precision, largest));
+                }
             }
         }
     }
+    assert!(bands.is_empty(), "{bands:?}");
 }
 
 /// A scene a thousand times larger, radius and all, is the same picture.

@@ -179,7 +179,7 @@ fn the_light_of_a_slice_is_its_integral() {
         slice.light = whole_arc(slice);
         slice.low = low_arc(slice);
         let side = select(1.0, -1.0, x.x < 0.0);
-        y = vec4f(arc(slice, side, x.y), share_of(slice, side, x.xy), slice.light, 0.0);";
+        y = vec4f(arc(slice, side, x.y), share_of(shares_of(slice), slice, side, x.xy), slice.light, 0.0);";
     let source = Source::of_technique("vbao");
     for (&[angle, n], found) in angles.iter().zip(on_gpu(&source, statements, &[], &inputs)) {
         let found = found.map(f64::from);
