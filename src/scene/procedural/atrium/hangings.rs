@@ -271,7 +271,7 @@ impl Curtain {
                 around.y * 0.12,
             );
             let out = Vec3::new(around.x, 0.0, around.y);
-            let c = on_circle(s * TAU) * 0.022;
+            let c = on_circle(-s * TAU) * 0.022;
             let p = middle + rim + out * c.x + Vec3::Y * c.y;
             (self.rod.point(p), Vec2::new(s, t))
         });

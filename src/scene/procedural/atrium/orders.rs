@@ -163,8 +163,9 @@ fn leaf(stone: &mut MeshBuilder, angle: f32, radius: f32, y: f32, height: f32, w
         ))
     };
     let uv = move |s: f32, t: f32| Vec2::new(s * width * 2.0, -t * height);
-    stone.sheet(4, 8, |s, t| (point(s, t, 0.05 * width), uv(s, t)));
-    stone.sheet(2, 6, |s, t| (point(1.0 - s, t, -0.03 * width), uv(s, t)));
+    // Both sides of the same net: chords of different ones would cross where the leaf rolls.
+    stone.sheet(4, 12, |s, t| (point(s, t, 0.05 * width), uv(s, t)));
+    stone.sheet(4, 12, |s, t| (point(1.0 - s, t, -0.03 * width), uv(s, t)));
 }
 
 /// A scroll under a corner of the abacus.
