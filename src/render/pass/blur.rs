@@ -28,11 +28,14 @@ pub(in super::super) fn blur(
         "const direction = vec2i({}, {});\nconst radius_px = {};\nconst plane_m = {:?}f;\n",
         direction[0], direction[1], inputs.radius_px, inputs.plane_m
     );
+    // Nearest, clamped to the edge.
+    let nearest = (gpu.device).create_sampler(&wgpu::SamplerDescriptor::default());
     let bound = Bindings::default()
         .uniform(0, inputs.frame)
         .texture(1, inputs.depth_m, false)
         .texture(2, inputs.normals, false)
         .texture(3, inputs.occlusion, false)
+        .sampler(4, &nearest, wgpu::SamplerBindingType::NonFiltering)
         .build(&gpu.device, "blur");
     Fullscreen {
         label: "occlusion blur",

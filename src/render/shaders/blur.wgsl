@@ -13,6 +13,8 @@
 
 @group(0) @binding(1) var depth_texture: texture_2d<f32>;
 @group(0) @binding(3) var occlusion_texture: texture_2d<f32>;
+// Reads the very middle of texels, faster than a load where reads are software.
+@group(0) @binding(4) var nearest: sampler;
 
 @fragment
 fn fs_blur(@builtin(position) position: vec4f) -> @location(0) vec4f {
@@ -33,21 +35,20 @@ fn fs_blur(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let along = dot(ray, normal) / plane_m;
     let along_step = dot(vec2f(direction) * px_m, normal.xy) / plane_m;
     let plane = centre_depth_m * along;
-    var sum = centre_value;
-    var total = 1.0;
+    let per_px = 1.0 / frame.size_px;
+    var sum = vec4f(0.0);
+    var total = 0.0;
     for (var step = -radius_px; step <= radius_px; step++) {
         let tap = centre + direction * step;
-        if step == 0 || !all(vec2u(tap) < size_px) {
-            continue;
-        }
-        let tap_texel = texel + direction * (step * texels);
-        let depth_m = textureLoad(depth_texture, tap_texel, 0).x;
+        let at = (vec2f(tap) + occlusion_sample()) * per_px;
+        let depth_m = textureSampleLevel(depth_texture, nearest, at, 0.0).x;
         let off_plane = depth_m * (along + f32(step) * along_step) - plane;
-        let turned = max(dot(world, world_normal(tap_texel)), 0.0);
+        let turned = max(dot(world, world_normal(texel + direction * (step * texels))), 0.0);
         // Two standard deviations reach the last tap.
-        let distance = f32(step) / f32(radius_px);
-        let weight = exp(-2.0 * distance * distance - off_plane * off_plane) * turned * turned;
-        sum += weight * textureLoad(occlusion_texture, tap, 0);
+        let distance = f32(step) / f32(max(radius_px, 1));
+        let near = exp(-2.0 * distance * distance - off_plane * off_plane);
+        let weight = select(0.0, near * turned * turned, all(vec2u(tap) < size_px));
+        sum += weight * textureSampleLevel(occlusion_texture, nearest, at, 0.0);
         total += weight;
     }
     return sum / total;

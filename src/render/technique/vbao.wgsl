@@ -15,12 +15,20 @@ fn shares_of(slice: Slice) -> Shares {
     return Shares(slice.low / slice.light, scale * slice.cos_normal, scale * slice.sin_normal);
 }
 
-// Where a direction of the slice, to one side (1 or -1), falls among its light, 0 to 1 but for rounding. The
+// The angle of a cosine to 7e-5 (Abramowitz & Stegun 1964, 4.4.45): a thousandth of a sector, twice a sample.
+fn coarse_arc_cosine(cosine: f32) -> f32 {
+    let x = abs(cosine);
+    let sum = fma(fma(fma(-0.0187293, x, 0.0742610), x, -0.2121144), x, 1.5707288);
+    let angle = sqrt(max(1.0 - x, 0.0)) * sum;
+    return select(angle, PI - angle, cosine < 0.0);
+}
+
+// Where a direction of the slice, to one side (1 or -1), falls among its light, 0 to 1 but for 1e-4. The
 // paper counts sectors of equal angle; these are of equal cosine-weighted light, so that counting them is the
 // integral. What lies below the surface is at the light's end.
 fn share_of(shares: Shares, slice: Slice, side: f32, direction: vec2f) -> f32 {
     let sine = side * direction.x;
-    let turned = arc_cosine(direction.y) - sine * direction.y;
+    let turned = coarse_arc_cosine(direction.y) - sine * direction.y;
     let share = shares.low + side * shares.by_square * sine * sine + shares.by_arc * turned;
     let is_below = dot(direction, vec2f(slice.sin_normal, slice.cos_normal)) < 0.0;
     return select(share, max(side, 0.0), is_below);

@@ -193,7 +193,8 @@ fn the_light_of_a_slice_is_its_integral() {
         assert!((found[2] - whole).abs() < 2e-6, "{n}: {found:?}, {whole}");
         let share = (below + exact.copysign(angle)) / whole;
         assert!(
-            (found[1] - share).abs() < 4e-6,
+            // As good as its arc cosine, which is a three-hundredth of a sector.
+            (found[1] - share).abs() < 1e-4,
             "{angle}, {n}: {found:?}, {share}"
         );
     }
