@@ -122,10 +122,8 @@ fn the_truth_is_what_a_wall_beside_a_floor_must_be() {
     }
 }
 
-/// Nothing of a convex body hides anything of it, its edges against the sky included, where a
-/// pixel's ray may pass the body by and a point that was drawn may lie within it.
-#[test]
-fn a_ball_alone_is_open_to_its_very_edge() {
+/// A ball of radius 1 in facets.
+fn ball() -> String {
     const COLUMNS: usize = 96;
     const ROWS: usize = 48;
     let mut model = String::new();
@@ -147,16 +145,52 @@ fn a_ball_alone_is_open_to_its_very_edge() {
             model += &format!("f {a} {b} {c} {d}\n");
         }
     }
-    let study = Study::new();
-    std::fs::write(study.path("wall.obj"), model).unwrap();
-    let set = (SET.replace("= 64", "= 320")).replace("= 48", "= 240");
-    std::fs::write(study.path("set.toml"), set).unwrap();
-    study.succeed(&["truth", "set.toml", "--error", "0.02", "--out", "truth"]);
-    let occlusion = study.occlusion("truth", "ray-traced");
-    // Where there are facets, a smooth normal leans by up to 2 degrees: 0.0003.
-    let dark = (occlusion.enumerate_pixels()).filter(|(_, _, value)| value[0] < 64_000);
-    let dark: Vec<_> = dark.map(|(x, y, value)| (x, y, value[0])).collect();
-    assert!(dark.is_empty(), "{dark:?}");
+    model
+}
+
+/// A plate, askew, whose faces each have their own normal.
+fn plate() -> String {
+    let mut model = String::new();
+    for (face, (axis, sign)) in (0..3).flat_map(|a| [(a, -1.0), (a, 1.0)]).enumerate() {
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(u, v)| {
+            let mut corner = [0.0; 3];
+            corner[axis] = sign;
+            corner[(axis + 1) % 3] = u * sign;
+            corner[(axis + 2) % 3] = v;
+            let [x, y, z] = [corner[0], 0.05 * corner[1], corner[2]];
+            let (x, z) = (0.9 * x - 0.4 * z, 0.4 * x + 0.9 * z);
+            glam::DVec3::new(x, y + 0.3 * x + 0.5, z)
+        });
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        let normal = normal.normalize();
+        for corner in corners {
+            model += &format!("v {} {} {}\n", corner.x, corner.y, corner.z);
+        }
+        model += &format!("vn {} {} {}\nf", normal.x, normal.y, normal.z);
+        for corner in 1..=4 {
+            model += &format!(" {}//{}", 4 * face + corner, face + 1);
+        }
+        model.push('\n');
+    }
+    model
+}
+
+/// Nothing of a convex body hides anything of it, its edges included, where a pixel's ray may pass
+/// the body by or meet the face round the corner of the one that was drawn.
+#[test]
+fn a_convex_body_is_open_to_its_very_edges() {
+    for (name, model) in [("ball", ball()), ("plate", plate())] {
+        let study = Study::new();
+        std::fs::write(study.path("wall.obj"), model).unwrap();
+        let set = (SET.replace("= 64", "= 640")).replace("= 48", "= 480");
+        std::fs::write(study.path("set.toml"), set).unwrap();
+        study.succeed(&["truth", "set.toml", "--error", "0.02", "--out", "truth"]);
+        let occlusion = study.occlusion("truth", "ray-traced");
+        // Smooth normals lean over facets, which costs a ray or two of 64. The wrong face costs half.
+        let dark = (occlusion.enumerate_pixels()).filter(|(_, _, value)| value[0] < 60_000);
+        let dark: Vec<_> = dark.map(|(x, y, value)| (x, y, value[0])).collect();
+        assert!(dark.is_empty(), "{name}: {dark:?}");
+    }
 }
 
 /// Same config, seed and adapter: same bytes, whatever the number of threads; and the image of

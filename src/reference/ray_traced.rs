@@ -1,6 +1,6 @@
 //! Rays through the scene's triangles, from the points that a picture shows.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::bvh::SceneBvh;
@@ -27,6 +27,23 @@ const ROUNDING: f32 = 16.0 * f32::EPSILON / 2.0;
 /// How far corners may be drawn from where they are, in pixels: the grid of 1/16 pixel that the
 /// renderer puts them on, and the adapter's own cut-off.
 const DRAWN_WITHIN_PX: f64 = 1.0 / 16.0;
+
+/// Cosine of the angle up to which a triangle's normal may be the one that was drawn, which is smooth over
+/// its edges.
+const SAME_TRIANGLE: f32 = 0.9;
+
+/// Where the surface of a place is looked for: there, and all round.
+const BESIDE: [(f64, f64); 9] = [
+    (0.0, 0.0),
+    (1.0, 0.0),
+    (-1.0, 0.0),
+    (0.0, 1.0),
+    (0.0, -1.0),
+    (1.0, 1.0),
+    (1.0, -1.0),
+    (-1.0, 1.0),
+    (-1.0, -1.0),
+];
 
 impl SurfacePoint {
     /// The point where a ray from `eye_m` first meets a triangle between `near` and `far`
@@ -69,8 +86,9 @@ impl SurfacePoint {
     ///
     /// The renderer draws corners on a grid, so that a depth belongs to a surface up to 1/16
     /// of a pixel away, and stores the triangle's normal to a few degrees. So the triangle is
-    /// looked up: the one that the pixel's ray meets first round the drawn depth. Where it
-    /// meets none, at the very edge of a surface, the point stays where it was drawn.
+    /// looked up: the one that the pixel's ray meets first round the drawn depth. At an edge that ray may
+    /// meet the triangle round the corner, or none; so the triangle is the one of the drawn
+    /// normal, up to 1/16 pixel beside. Where there is none, the point stays where it was drawn.
     #[must_use]
     pub fn visible(bvh: &SceneBvh, surfaces: &VisibleSurfaces, pixel: usize) -> Option<Self> {
         if !surfaces.has_surface(pixel) {
@@ -79,8 +97,13 @@ impl SurfacePoint {
         let projection = surfaces.projection();
         let depth_m = f64::from(surfaces.depth_m[pixel]);
         let eye_m = projection.world_point(pixel, 0.0);
-        // In lengths of this direction, distance is depth.
-        let direction = projection.world_point(pixel, 1.0) - eye_m;
+        let place = projection.place_of(pixel);
+        // In lengths of these directions, distance is depth.
+        let towards = |place| {
+            let ray = projection.ray_through(place);
+            projection.world_from_view.transform_vector3(ray)
+        };
+        let direction = towards(place);
         let drawn_m = eye_m + direction * depth_m;
         let drawn_within_m = DRAWN_WITHIN_PX * projection.metres_per_px.max_element() * depth_m;
         let rounding_m = f64::from(ROUNDING) * (drawn_m.abs().max_element() + depth_m);
@@ -95,7 +118,20 @@ impl SurfacePoint {
             geometric_normal,
             error_m: (drawn_within_m + rounding_m) as f32,
         };
-        Some(match Self::first_met(bvh, eye_m, direction, near, far) {
+        let mut met: Option<Self> = None;
+        for (x, y) in BESIDE {
+            let beside = place + DRAWN_WITHIN_PX * DVec2::new(x, y);
+            let found = Self::first_met(bvh, eye_m, towards(beside), near, far);
+            let fits = |point: &Self| point.geometric_normal.dot(geometric_normal);
+            met = [met, found]
+                .into_iter()
+                .flatten()
+                .max_by(|a, b| fits(a).total_cmp(&fits(b)));
+            if met.is_some_and(|met| fits(&met) > SAME_TRIANGLE) {
+                break;
+            }
+        }
+        Some(match met {
             Some(met) => Self {
                 normal: drawn.normal,
                 ..met
