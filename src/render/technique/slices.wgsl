@@ -119,7 +119,6 @@ struct Seen {
     per_m: f32,
     // Square of its true distance, square metres.
     distance_2: f32,
-    depth_m: f32,
     // Whether there is one: not off the picture, the sky, the point's own pixel, or beside it.
     is_there: bool,
 }
@@ -134,11 +133,10 @@ fn seen_at(sight: Sight, slice: Slice, side: f32, length_px: f32) -> Seen {
     let tap = sight.pixel + step_px;
     let at = (sight.at_px + step) * sight.per_px;
     let depth_m = textureSampleLevel(depth_texture, nearest, at, 0.0).x;
-    seen.depth_m = depth_m;
     let true_m = vec3f(
         depth_m * dot(step, slice.across),
         depth_m * dot(step, slice.out),
-        depth_m * dot(step, sight.view) + (sight.distance_m * ((sight.depth_m - depth_m) * sight.per_depth)),
+        depth_m * dot(step, sight.view) + sight.distance_m * ((sight.depth_m - depth_m) * sight.per_depth),
     );
     seen.distance_2 = dot(true_m, true_m);
     seen.offset_m = true_m.xz + true_m.y * slice.drag;
