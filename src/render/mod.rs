@@ -29,6 +29,7 @@ mod surfaces;
 mod targets;
 pub mod technique;
 mod timestamps;
+mod timing;
 mod upload;
 mod visible;
 
@@ -39,6 +40,7 @@ pub use frame::{FrameRequest, Precision};
 pub use outcome::{AdapterRecord, PassRecord, Picture};
 pub use readback::{FloatImage, LinearDepth};
 pub use renderer::{RenderedFrame, Renderer, View};
+pub use timing::{Clock, PassTimes, Repeats};
 pub use upload::GpuScene;
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::environment::EnvironmentTextures;
 use super::frame::{FrameRequest, SHADOW_SIZE_PX};
+use super::pass::Drawable;
 use super::plan::{FramePlan, PassKind};
 use super::readback::FloatImage;
 use super::shading::{self, Drawn, Shaded};
@@ -170,6 +171,21 @@ impl<'a> View<'a> {
 
     fn draw(&mut self, request: &FrameRequest) -> Result<Shaded, RenderError> {
         let gpu: &'a Gpu = self.gpu;
+        let (filled, plan, mut passes) = self.prepare(request)?;
+        let drawn = self.drawn(&plan)?;
+        let lights = shading::lights_of(&request.with_model_lights(&self.scene.facts.lights));
+        let mut shaded = shading::shade(gpu, &filled, &plan, drawn, lights)?;
+        passes.append(&mut shaded.passes);
+        Ok(Shaded { passes, ..shaded })
+    }
+
+    /// Sees to it that everything is there that an image shares with others. What it then runs,
+    /// and what has been run.
+    fn prepare(
+        &mut self,
+        request: &FrameRequest,
+    ) -> Result<(FrameRequest, FramePlan, Vec<PassRecord>), RenderError> {
+        let gpu: &'a Gpu = self.gpu;
         let mut facts = self.scene.facts.clone();
         let request = &request.with_model_lights(&facts.lights);
         let filled = request.filled_in();
@@ -183,22 +199,38 @@ impl<'a> View<'a> {
         self.sun_visibility(&filled, &plan, &mut passes);
         self.environment(&filled, &plan);
         self.proxies(&filled);
+        Ok((filled, plan, passes))
+    }
+
+    /// What [`prepare`](Self::prepare) has made.
+    fn drawn(&self, plan: &FramePlan) -> Result<Drawn<'_>, RenderError> {
         let (Some(surfaces), Some((_, environment))) = (&self.surfaces, &self.environment) else {
             return Err(RenderError::Device(String::from("no surfaces were drawn")));
         };
         let visibility = (self.visibility.as_ref())
             .filter(|_| plan.has(PassKind::ShadowFilter))
             .map(|visibility| &visibility.view);
-        let lights = shading::lights_of(request);
-        let drawn = Drawn {
+        Ok(Drawn {
             surfaces,
             visibility,
             environment,
             proxies: (self.proxies.as_ref()).map_or(&[], |(_, spheres)| spheres.as_slice()),
-        };
-        let mut shaded = shading::shade(gpu, &filled, &plan, drawn, lights)?;
-        passes.append(&mut shaded.passes);
-        Ok(Shaded { passes, ..shaded })
+        })
+    }
+
+    /// The passes of an image that come to an estimate of occlusion, each ready to be drawn any
+    /// number of times.
+    pub(super) fn estimating(
+        &mut self,
+        request: &FrameRequest,
+    ) -> Result<Vec<(PassKind, Vec<Drawable>)>, RenderError> {
+        request.check_handed_image()?;
+        self.watched(request, |view| {
+            let (filled, plan, _) = view.prepare(request)?;
+            let drawn = view.drawn(&plan)?;
+            let lights = shading::lights_of(&request.with_model_lights(&view.scene.facts.lights));
+            Ok(shading::estimating(view.gpu, &filled, &plan, drawn, lights))
+        })
     }
 
     /// The surfaces, and whether they were drawn just now.

@@ -9,7 +9,7 @@ use super::estimate::Estimate;
 use super::frame::{Formats, FrameRequest, FrameUniform, normals_part};
 use super::light::{LightUniform, PointUniform};
 use super::pass::{
-    self, BlurInputs, LightInputs, OcclusionInputs, OcclusionTargets, UpsampleInputs,
+    self, BlurInputs, Drawable, LightInputs, OcclusionInputs, OcclusionTargets, UpsampleInputs,
 };
 use super::plan::{FramePlan, PassKind};
 use super::readback::{FloatImage, Readback};
@@ -65,6 +65,21 @@ pub(super) fn shade(
         radiance: shading.radiance,
         passes,
     })
+}
+
+/// The passes of `plan` that come to an estimate of occlusion, each ready to be drawn.
+pub(super) fn estimating(
+    gpu: &Gpu,
+    request: &FrameRequest,
+    plan: &FramePlan,
+    drawn: Drawn<'_>,
+    lights: LightUniform,
+) -> Vec<(PassKind, Vec<Drawable>)> {
+    let shading = Shading::new(gpu, request, plan, drawn, lights);
+    (plan.passes.iter())
+        .map(|planned| (planned.kind, shading.estimating(planned.kind)))
+        .filter(|(_, drawables)| !drawables.is_empty())
+        .collect()
 }
 
 /// What was made before, for all images of a scene that have it in common.
@@ -150,14 +165,17 @@ impl<'a> Shading<'a> {
         match kind {
             // Drawn before, for all images that share them.
             PassKind::Geometry | PassKind::ShadowMap | PassKind::ShadowFilter => {}
-            PassKind::Occlusion => recorder.pass(kind, |encoder| self.occlusion(encoder)),
-            PassKind::BlurRows => recorder.pass(kind, |encoder| {
-                self.blur(encoder, [1, 0]);
-            }),
-            PassKind::BlurColumns => recorder.pass(kind, |encoder| {
-                self.blur(encoder, [0, 1]);
-            }),
-            PassKind::Upsample => recorder.pass(kind, |encoder| self.upsample(encoder)),
+            PassKind::Occlusion
+            | PassKind::BlurRows
+            | PassKind::BlurColumns
+            | PassKind::Upsample => {
+                let drawables = self.estimating(kind);
+                recorder.pass(kind, |encoder| {
+                    for drawable in &drawables {
+                        drawable.draw(encoder);
+                    }
+                });
+            }
             PassKind::Shade => recorder.pass(kind, |encoder| {
                 let (lighting, samples) = (&self.request.lighting, self.request.supersampling);
                 let inputs = self.light_inputs();
@@ -178,12 +196,23 @@ impl<'a> Shading<'a> {
         }
     }
 
-    fn occlusion(&self, encoder: &mut wgpu::CommandEncoder) {
+    /// What a pass draws of those that come to an estimate of occlusion.
+    fn estimating(&self, kind: PassKind) -> Vec<Drawable> {
+        match kind {
+            PassKind::Occlusion => self.occlusion().into_iter().collect(),
+            PassKind::BlurRows => self.blur([1, 0]),
+            PassKind::BlurColumns => self.blur([0, 1]),
+            PassKind::Upsample => self.upsample(),
+            _ => Vec::new(),
+        }
+    }
+
+    fn occlusion(&self) -> Option<Drawable> {
         // Occlusion is planned with normals, always.
-        let (Some(normals), Some(occlusion)) = (&self.drawn.surfaces.normals, &self.occlusion)
-        else {
-            return;
-        };
+        let (normals, occlusion) = (
+            self.drawn.surfaces.normals.as_ref()?,
+            self.occlusion.as_ref()?,
+        );
         let inputs = OcclusionInputs {
             frame: &self.occlusion_frame,
             depth_m: &self.drawn.surfaces.depth_m,
@@ -200,13 +229,7 @@ impl<'a> Shading<'a> {
             occlusion: &occlusion.estimated,
             directional: self.directional.as_ref().map(|found| &found.estimated),
         };
-        pass::occlusion(
-            self.gpu,
-            encoder,
-            &self.request.occlusion,
-            &inputs,
-            &targets,
-        );
+        pass::occlusion(self.gpu, &self.request.occlusion, &inputs, &targets)
     }
 
     /// What the technique estimated.
@@ -214,14 +237,12 @@ impl<'a> Shading<'a> {
         self.occlusion.iter().chain(&self.directional)
     }
 
-    fn blur(&self, encoder: &mut wgpu::CommandEncoder, direction: [i32; 2]) {
+    fn blur(&self, direction: [i32; 2]) -> Vec<Drawable> {
         let Some(normals) = &self.drawn.surfaces.normals else {
-            return;
+            return Vec::new();
         };
-        for estimate in self.estimates() {
-            let Some(half_blurred) = &estimate.half_blurred else {
-                continue;
-            };
+        let blur = |estimate: &Estimate| {
+            let half_blurred = estimate.half_blurred.as_ref()?;
             let (from, to) = match direction {
                 [_, 0] => (&estimate.estimated, half_blurred),
                 _ => (half_blurred, &estimate.estimated),
@@ -235,18 +256,17 @@ impl<'a> Shading<'a> {
                 radius_px: self.request.blur_radius_px,
                 plane_m: self.request.blur_plane_m,
             };
-            pass::blur(self.gpu, encoder, &inputs, direction, to);
-        }
+            Some(pass::blur(self.gpu, &inputs, direction, to))
+        };
+        self.estimates().filter_map(blur).collect()
     }
 
-    fn upsample(&self, encoder: &mut wgpu::CommandEncoder) {
+    fn upsample(&self) -> Vec<Drawable> {
         let Some(normals) = &self.drawn.surfaces.normals else {
-            return;
+            return Vec::new();
         };
-        for estimate in self.estimates() {
-            let Some(target) = &estimate.upsampled else {
-                continue;
-            };
+        let upsample = |estimate: &Estimate| {
+            let target = estimate.upsampled.as_ref()?;
             let inputs = UpsampleInputs {
                 frame: &self.image_frame,
                 depth_m: &self.drawn.surfaces.depth_m,
@@ -254,8 +274,9 @@ impl<'a> Shading<'a> {
                 normals_part: self.normals_part,
                 occlusion: &estimate.estimated,
             };
-            pass::upsample(self.gpu, encoder, &inputs, target);
-        }
+            Some(pass::upsample(self.gpu, &inputs, target))
+        };
+        self.estimates().filter_map(upsample).collect()
     }
 
     fn light_inputs(&self) -> LightInputs<'_> {

@@ -2,7 +2,7 @@
 
 use super::super::Gpu;
 use super::super::bindings::Bindings;
-use super::fullscreen::{Fullscreen, Onto};
+use super::fullscreen::{Drawable, Fullscreen, Onto};
 
 /// What the blur reads.
 pub(in super::super) struct BlurInputs<'a> {
@@ -15,14 +15,13 @@ pub(in super::super) struct BlurInputs<'a> {
     pub plane_m: f32,
 }
 
-/// Blurs along `direction` (one pixel step) into `target`.
+/// The blur along `direction` (one pixel step) into `target`, ready to be drawn.
 pub(in super::super) fn blur(
     gpu: &Gpu,
-    encoder: &mut wgpu::CommandEncoder,
     inputs: &BlurInputs,
     direction: [i32; 2],
     target: &wgpu::TextureView,
-) {
+) -> Drawable {
     // Constants, so that its loop unrolls.
     let settings = format!(
         "const direction = vec2i({}, {});\nconst radius_px = {};\nconst plane_m = {:?}f;\n",
@@ -45,5 +44,5 @@ pub(in super::super) fn blur(
         bound: &bound,
         onto: Onto::Cleared(wgpu::Color::TRANSPARENT),
     }
-    .draw(gpu, encoder, target);
+    .prepare(gpu, &[target])
 }

@@ -22,6 +22,42 @@ pub(super) struct Fullscreen<'a> {
     pub onto: Onto,
 }
 
+/// A shader with everything it needs, ready to be recorded any number of times.
+pub(in super::super) struct Drawable {
+    label: String,
+    pipeline: wgpu::RenderPipeline,
+    group: wgpu::BindGroup,
+    targets: Vec<wgpu::TextureView>,
+    load: wgpu::LoadOp<wgpu::Color>,
+}
+
+impl Drawable {
+    /// Records it.
+    pub(in super::super) fn draw(&self, encoder: &mut wgpu::CommandEncoder) {
+        let attachments: Vec<_> = (self.targets.iter())
+            .map(|view| {
+                Some(wgpu::RenderPassColorAttachment {
+                    view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: self.load,
+                        store: wgpu::StoreOp::Store,
+                    },
+                })
+            })
+            .collect();
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(&self.label),
+            color_attachments: &attachments,
+            ..wgpu::RenderPassDescriptor::default()
+        });
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &self.group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+}
+
 impl Fullscreen<'_> {
     pub(super) fn draw(
         &self,
@@ -29,44 +65,22 @@ impl Fullscreen<'_> {
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::TextureView,
     ) {
-        self.draw_to(gpu, encoder, &[target]);
+        self.prepare(gpu, &[target]).draw(encoder);
     }
 
-    /// The same for a shader that writes several targets at once.
-    pub(super) fn draw_to(
-        &self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        targets: &[&wgpu::TextureView],
-    ) {
+    /// Compiles it for targets that it writes at once.
+    pub(super) fn prepare(&self, gpu: &Gpu, targets: &[&wgpu::TextureView]) -> Drawable {
         let formats: Vec<_> = targets.iter().map(|view| view.texture().format()).collect();
-        let pipeline = self.pipeline(gpu, &formats);
-        let load = match self.onto {
-            Onto::Cleared(colour) => wgpu::LoadOp::Clear(colour),
-            Onto::Added => wgpu::LoadOp::Load,
-        };
-        let attachments: Vec<_> = targets
-            .iter()
-            .map(|&view| {
-                Some(wgpu::RenderPassColorAttachment {
-                    view,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations {
-                        load,
-                        store: wgpu::StoreOp::Store,
-                    },
-                })
-            })
-            .collect();
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(self.label),
-            color_attachments: &attachments,
-            ..wgpu::RenderPassDescriptor::default()
-        });
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &self.bound.group, &[]);
-        pass.draw(0..3, 0..1);
+        Drawable {
+            label: self.label.to_owned(),
+            pipeline: self.pipeline(gpu, &formats),
+            group: self.bound.group.clone(),
+            targets: targets.iter().map(|&view| view.clone()).collect(),
+            load: match self.onto {
+                Onto::Cleared(colour) => wgpu::LoadOp::Clear(colour),
+                Onto::Added => wgpu::LoadOp::Load,
+            },
+        }
     }
 
     fn pipeline(&self, gpu: &Gpu, formats: &[wgpu::TextureFormat]) -> wgpu::RenderPipeline {

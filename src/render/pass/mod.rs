@@ -11,6 +11,7 @@ mod shadow;
 mod upsample;
 
 pub(super) use blur::{BlurInputs, blur};
+pub(super) use fullscreen::Drawable;
 pub(super) use geometry::{GeometryInputs, GeometryTargets, geometry, is_uncovered};
 pub(super) use light::{LightInputs, light};
 pub(super) use occlusion::{OcclusionInputs, OcclusionTargets, occlusion};

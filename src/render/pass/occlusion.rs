@@ -5,7 +5,7 @@ use wgpu::util::DeviceExt;
 use super::super::Gpu;
 use super::super::bindings::{Bindings, uniform_of};
 use super::super::technique::{self, Settings};
-use super::fullscreen::{Fullscreen, Onto};
+use super::fullscreen::{Drawable, Fullscreen, Onto};
 use super::light::sun_visibility_part;
 
 /// What techniques are given, each what it declares.
@@ -31,18 +31,15 @@ pub(in super::super) struct OcclusionTargets<'a> {
     pub directional: Option<&'a wgpu::TextureView>,
 }
 
-/// Runs the technique of `settings`; nothing for one without a shader.
+/// The technique of `settings`, ready to be drawn; `None` for one without a shader.
 pub(in super::super) fn occlusion(
     gpu: &Gpu,
-    encoder: &mut wgpu::CommandEncoder,
     settings: &Settings,
     inputs: &OcclusionInputs,
     targets: &OcclusionTargets,
-) {
+) -> Option<Drawable> {
     let technique = settings.technique;
-    let Some(source) = technique.shader else {
-        return;
-    };
+    let source = technique.shader?;
     let params = settings.wgsl();
     let noise = uniform_of(
         &gpu.device,
@@ -81,15 +78,15 @@ pub(in super::super) fn occlusion(
         .into_iter()
         .flatten()
         .collect();
-    Fullscreen {
+    let shader = Fullscreen {
         label: technique.name,
         source,
         variants: &variants,
         fragment: "fs_occlusion",
         bound: &bound,
         onto: Onto::Cleared(wgpu::Color::TRANSPARENT),
-    }
-    .draw_to(gpu, encoder, &targets);
+    };
+    Some(shader.prepare(gpu, &targets))
 }
 
 /// A storage buffer of vectors. It cannot be empty: without any there is one of nought.

@@ -2,7 +2,7 @@
 
 use super::super::Gpu;
 use super::super::bindings::Bindings;
-use super::fullscreen::{Fullscreen, Onto};
+use super::fullscreen::{Drawable, Fullscreen, Onto};
 
 /// What upsampling reads.
 pub(in super::super) struct UpsampleInputs<'a> {
@@ -14,13 +14,12 @@ pub(in super::super) struct UpsampleInputs<'a> {
     pub occlusion: &'a wgpu::TextureView,
 }
 
-/// Brings occlusion to every pixel of `target`, by the surface it belongs to.
+/// What brings occlusion to every pixel of `target`, by the surface it belongs to, ready to be drawn.
 pub(in super::super) fn upsample(
     gpu: &Gpu,
-    encoder: &mut wgpu::CommandEncoder,
     inputs: &UpsampleInputs,
     target: &wgpu::TextureView,
-) {
+) -> Drawable {
     let bound = Bindings::default()
         .uniform(0, inputs.frame)
         .texture(1, inputs.depth_m, false)
@@ -35,5 +34,5 @@ pub(in super::super) fn upsample(
         bound: &bound,
         onto: Onto::Cleared(wgpu::Color::TRANSPARENT),
     }
-    .draw(gpu, encoder, target);
+    .prepare(gpu, &[target])
 }

@@ -1,7 +1,7 @@
 //! Alchemy screen-space ambient obscurance.
 
 use super::slices::{self, RADIUS};
-use super::{Inputs, Noise, Parameter, Preset, Technique, Weighting};
+use super::{Inputs, Noise, Parameter, Preset, Taps, Technique, Weighting};
 
 /// Alchemy ambient obscurance.
 pub static ALCHEMY: Technique = Technique {
@@ -38,6 +38,8 @@ pub static ALCHEMY: Technique = Technique {
         Parameter::number("contrast", "", (0.1, 16.0), 1.0, "power of the result"),
     ],
     samples: Some("samples"),
+    taps: Taps::Count("samples"),
+    reach: Some("radius_m"),
     presets: &[Preset {
         label: "alchemy12",
         values: &[("samples", 12.0)],

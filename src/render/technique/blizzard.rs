@@ -1,6 +1,6 @@
 //! Blizzard's technique, in the form the thesis used.
 
-use super::{Inputs, Noise, Parameter, Preset, Settings, Technique, Weighting, sampling};
+use super::{Inputs, Noise, Parameter, Preset, Settings, Taps, Technique, Weighting, sampling};
 use crate::seed;
 
 /// Blizzard's technique.
@@ -21,6 +21,8 @@ pub static BLIZZARD: Technique = Technique {
         MODE,
     ],
     samples: Some("samples"),
+    taps: Taps::Count("samples"),
+    reach: Some("radius_m"),
     presets: &[
         Preset {
             label: "blizzard8",

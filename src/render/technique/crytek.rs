@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec3};
 
-use super::{Inputs, Noise, Parameter, Preset, Settings, Technique, Weighting, noise_tile};
+use super::{Inputs, Noise, Parameter, Preset, Settings, Taps, Technique, Weighting, noise_tile};
 
 /// Crytek's technique.
 pub static CRYTEK: Technique = Technique {
@@ -32,6 +32,8 @@ pub static CRYTEK: Technique = Technique {
         ),
     ],
     samples: Some("samples"),
+    taps: Taps::Count("samples"),
+    reach: None,
     presets: &[Preset {
         label: "crytek24",
         values: &[("samples", 24.0)],

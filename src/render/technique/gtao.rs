@@ -1,7 +1,7 @@
 //! Ground-truth ambient occlusion: horizons, and the light between them in closed form.
 
 use super::slices::{self, RADIUS, SLICES, STEP_POWER, STEPS};
-use super::{Inputs, Noise, Parameter, Preset, Technique, Weighting};
+use super::{Inputs, Noise, Parameter, Preset, Taps, Technique, Weighting};
 
 /// Ground-truth ambient occlusion.
 pub static GTAO: Technique = Technique {
@@ -25,6 +25,12 @@ pub static GTAO: Technique = Technique {
         STEP_POWER,
     ],
     samples: None,
+    taps: Taps::Lines {
+        count: "slices",
+        sides: 2,
+        steps: "steps",
+    },
+    reach: Some("radius_m"),
     presets: &[
         Preset {
             label: "gtao18",

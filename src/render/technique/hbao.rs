@@ -1,7 +1,7 @@
 //! Horizon-based ambient occlusion.
 
 use super::slices::{self, RADIUS, STEP_POWER, STEPS};
-use super::{Inputs, Noise, Parameter, Preset, Technique, Weighting};
+use super::{Inputs, Noise, Parameter, Preset, Taps, Technique, Weighting};
 
 /// Horizon-based ambient occlusion.
 pub static HBAO: Technique = Technique {
@@ -31,6 +31,12 @@ pub static HBAO: Technique = Technique {
         STEP_POWER,
     ],
     samples: None,
+    taps: Taps::Lines {
+        count: "directions",
+        sides: 1,
+        steps: "steps",
+    },
+    reach: Some("radius_m"),
     presets: &[Preset {
         label: "hbao24",
         values: &[("directions", 6.0), ("steps", 4.0)],

@@ -14,6 +14,7 @@ mod sampling;
 mod settings;
 mod slices;
 mod ssdo;
+mod taps;
 mod two_band;
 mod vbao;
 
@@ -92,6 +93,25 @@ pub enum Noise {
     Tile,
     /// The samples turn along a Hilbert curve, well spread over any patch of pixels.
     Hilbert,
+}
+
+/// How often a technique looks at the scene for one estimate: what its work grows with, and
+/// what techniques are compared by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Taps {
+    /// Never.
+    None,
+    /// As often as a parameter says.
+    Count(&'static str),
+    /// At `steps` places along each of `count` lines, to one or two `sides`.
+    Lines {
+        /// The parameter that is the number of lines.
+        count: &'static str,
+        /// 1, or 2 where a line is looked along both ways.
+        sides: u32,
+        /// The parameter that is the number of places along a side.
+        steps: &'static str,
+    },
 }
 
 /// Something a technique can be set to.
@@ -236,6 +256,10 @@ pub struct Technique {
     pub parameters: &'static [Parameter],
     /// The parameter that is its number of samples a pixel, if it has one.
     pub samples: Option<&'static str>,
+    /// How often it looks at the scene for one estimate.
+    pub taps: Taps,
+    /// The parameter that is the distance from which on nothing occludes, metres, if it has one.
+    pub reach: Option<&'static str>,
     /// Known settings.
     pub presets: &'static [Preset],
     /// Its WGSL; `None` for a technique that runs no pass.

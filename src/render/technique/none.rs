@@ -1,6 +1,6 @@
 //! No occlusion: k_A = 1 everywhere, and no pass runs.
 
-use super::{Inputs, Noise, Technique, Weighting};
+use super::{Inputs, Noise, Taps, Technique, Weighting};
 
 /// No occlusion.
 pub static NONE: Technique = Technique {
@@ -12,6 +12,8 @@ pub static NONE: Technique = Technique {
     noise: Noise::None,
     parameters: &[],
     samples: None,
+    taps: Taps::None,
+    reach: None,
     presets: &[],
     shader: None,
     kernel: |_, _| Vec::new(),

@@ -1,7 +1,7 @@
 //! The thesis' own technique: blizzard's offsets, walked in steps.
 
 use super::blizzard::{DISTANCE_SCALE, FAR_THRESHOLD, MODE, NEAR_THRESHOLD, POWER, RADIUS};
-use super::{Inputs, Noise, Parameter, Preset, Settings, Technique, Weighting, sampling};
+use super::{Inputs, Noise, Parameter, Preset, Settings, Taps, Technique, Weighting, sampling};
 use crate::seed;
 
 /// The ray-marching technique.
@@ -23,6 +23,12 @@ pub static RAY_MARCH: Technique = Technique {
         MODE,
     ],
     samples: Some("directions"),
+    taps: Taps::Lines {
+        count: "directions",
+        sides: 1,
+        steps: "steps",
+    },
+    reach: Some("radius_m"),
     presets: &[Preset {
         label: "ray-march30",
         values: &[("directions", 30.0), ("steps", 4.0)],

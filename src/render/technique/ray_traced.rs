@@ -1,7 +1,7 @@
 //! The truth as a technique: what rays through the scene find, computed outside of the renderer
 //! and handed in.
 
-use super::{Inputs, Noise, Parameter, Technique, Weighting};
+use super::{Inputs, Noise, Parameter, Taps, Technique, Weighting};
 
 /// Ray-traced occlusion.
 pub static RAY_TRACED: Technique = Technique {
@@ -35,6 +35,8 @@ pub static RAY_TRACED: Technique = Technique {
         ),
     ],
     samples: None,
+    taps: Taps::None,
+    reach: Some("d_max_m"),
     presets: &[],
     shader: None,
     kernel: |_, _| Vec::new(),

@@ -1,7 +1,7 @@
 //! Screen-space directional occlusion, with one bounce of light.
 
 use super::slices::{self, RADIUS};
-use super::{Inputs, Noise, Parameter, Preset, Technique, Weighting};
+use super::{Inputs, Noise, Parameter, Preset, Taps, Technique, Weighting};
 
 /// Screen-space directional occlusion.
 pub static SSDO: Technique = Technique {
@@ -26,6 +26,8 @@ pub static SSDO: Technique = Technique {
         ),
     ],
     samples: Some("samples"),
+    taps: Taps::Count("samples"),
+    reach: Some("radius_m"),
     presets: &[Preset {
         label: "ssdo16",
         values: &[("samples", 16.0)],

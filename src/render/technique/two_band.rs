@@ -1,7 +1,7 @@
 //! Two bands of occlusion: near surfaces as the picture shows them, the far scene as spheres.
 
 use super::slices::{self, RADIUS};
-use super::{Inputs, Noise, PROXIES, Parameter, Preset, Technique, Weighting};
+use super::{Inputs, Noise, PROXIES, Parameter, Preset, Taps, Technique, Weighting};
 
 /// Occlusion in two bands.
 pub static TWO_BAND: Technique = Technique {
@@ -51,6 +51,8 @@ pub static TWO_BAND: Technique = Technique {
         ),
     ],
     samples: Some("samples"),
+    taps: Taps::Count("samples"),
+    reach: Some("reach_m"),
     presets: &[Preset {
         label: "two-band24",
         values: &[("samples", 24.0)],

@@ -1,7 +1,7 @@
 //! Visibility bitmasks: slices whose occluders have a thickness.
 
 use super::slices::{self, RADIUS, SLICES, STEP_POWER, STEPS};
-use super::{Inputs, Noise, Parameter, Preset, Technique, Weighting};
+use super::{Inputs, Noise, Parameter, Preset, Taps, Technique, Weighting};
 
 /// Visibility-bitmask ambient occlusion.
 pub static VBAO: Technique = Technique {
@@ -25,6 +25,12 @@ pub static VBAO: Technique = Technique {
         STEP_POWER,
     ],
     samples: None,
+    taps: Taps::Lines {
+        count: "slices",
+        sides: 2,
+        steps: "steps",
+    },
+    reach: Some("radius_m"),
     presets: &[
         Preset {
             label: "vbao18",
