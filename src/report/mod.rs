@@ -3,7 +3,10 @@
 //! The same analysis gives the same bytes: nothing here reads a clock, and the order of everything
 //! is that of the registry and of the data.
 
+pub mod canvas;
+pub mod colour_map;
 mod csv;
+pub mod error_picture;
 mod html;
 mod json;
 mod methods;

@@ -18,7 +18,7 @@ pub struct Difference {
 }
 
 /// Two images that cannot be compared pixel by pixel.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error(
     "one image is {}×{} pixels and the other {}×{}; both must have one size",
     first_px.0, first_px.1, second_px.0, second_px.1
@@ -112,7 +112,8 @@ fn apart<'a>(first: &'a Picture, second: &'a Picture) -> impl Iterator<Item = [u
         .map(|(a, b)| [0, 1, 2].map(|channel: usize| a[channel].abs_diff(b[channel])))
 }
 
-fn check_sizes(first: &Picture, second: &Picture) -> Result<(), SizesDiffer> {
+/// Refuses two images of different sizes.
+pub(super) fn check_sizes(first: &Picture, second: &Picture) -> Result<(), SizesDiffer> {
     let size = |picture: &Picture| (picture.width_px, picture.height_px);
     if size(first) == size(second) {
         return Ok(());

@@ -4,14 +4,19 @@
 pub mod check;
 pub mod difference;
 pub mod files;
+pub mod flip;
 mod folders;
 pub mod loaded;
 pub mod manifest;
 pub mod pair_check;
+mod plane;
 pub mod produce;
 pub mod progress;
 pub mod set;
 pub mod sheet;
+pub mod ssim;
+#[cfg(test)]
+mod test_pictures;
 pub mod truth;
 
 pub use folders::Folders;
