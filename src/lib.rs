@@ -23,6 +23,8 @@ pub mod render;
 
 pub mod stimulus;
 
+pub mod cost;
+
 pub mod protocol;
 
 pub mod record;

@@ -1,8 +1,10 @@
 //! The command line: one file a subcommand, no logic of its own.
 
+mod advise;
 mod analyse;
 mod browse;
 mod check;
+mod cost;
 mod demo;
 mod logging;
 mod model;
@@ -41,6 +43,8 @@ enum Command {
     Model(model::ModelArgs),
     Techniques(techniques::Techniques),
     Check(check::Check),
+    Cost(Box<cost::Cost>),
+    Advise(Box<advise::Advise>),
     Browse(browse::Browse),
     Run(Box<run::Run>),
     Order(order::Order),
@@ -118,6 +122,8 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Model(args) => model::run(&args, verbosity),
         Command::Techniques(args) => techniques::run(&args),
         Command::Check(args) => check::run(&args, verbosity),
+        Command::Cost(args) => cost::run(&args, verbosity),
+        Command::Advise(args) => advise::run(&args, verbosity),
         Command::Browse(args) => browse::run(&args),
         Command::Run(args) => run::run(&args, verbosity),
         Command::Order(args) => order::run(&args),

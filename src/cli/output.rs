@@ -45,4 +45,15 @@ impl Verbosity {
         }
         bar
     }
+
+    /// The same for work whose steps nobody has counted.
+    #[must_use]
+    pub fn spinner(self) -> indicatif::ProgressBar {
+        if self.quiet {
+            return indicatif::ProgressBar::hidden();
+        }
+        let spinner = indicatif::ProgressBar::new_spinner();
+        spinner.enable_steady_tick(std::time::Duration::from_millis(200));
+        spinner
+    }
 }

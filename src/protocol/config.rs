@@ -35,6 +35,10 @@ pub struct Protocol {
     /// The keys that answer.
     #[serde(default)]
     pub keys: Keys,
+    /// How participants see the images, where that is laid down: for metrics that ask what can
+    /// be seen.
+    #[serde(default)]
+    pub viewing: Option<Viewing>,
     /// Optional questions about the participant, in the order asked.
     #[serde(default, rename = "metadata")]
     pub metadata: Vec<MetadataField>,
@@ -46,6 +50,31 @@ pub struct Protocol {
 quantity! {
     /// A number of participants.
     Participants: u32, 1, 100_000, "participants"
+}
+
+quantity! {
+    /// From the eye to the display.
+    ViewingDistance: f32, 0.1, 20.0, "m"
+}
+quantity! {
+    /// Width of a display.
+    DisplayWidth: f32, 0.05, 20.0, "m"
+}
+quantity! {
+    /// Columns of a display.
+    DisplayColumns: u32, 320, 65_536, "px"
+}
+
+/// How participants see the images.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Viewing {
+    /// From the eye to the display.
+    pub distance_m: ViewingDistance,
+    /// Width of the whole display.
+    pub display_width_m: DisplayWidth,
+    /// Columns of the whole display.
+    pub display_width_px: DisplayColumns,
 }
 
 /// The grey between two images.

@@ -12,6 +12,7 @@ mod occlusion;
 mod ray_traced;
 mod screen_space;
 pub mod sobol;
+mod thinned;
 
 pub use bvh::SceneBvh;
 pub use directions::Weighting;
@@ -19,6 +20,7 @@ pub use error::ReferenceError;
 pub use occlusion::{Estimates, OcclusionSettings, Surroundings, estimate};
 pub use ray_traced::{RayTraced, SurfacePoint};
 pub use screen_space::ScreenSpace;
+pub use thinned::Thinned;
 
 #[cfg(test)]
 mod tests;

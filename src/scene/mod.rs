@@ -18,6 +18,7 @@ pub mod procedural;
 pub mod proxies;
 pub mod source;
 pub mod srgb;
+mod subdivide;
 pub mod texture;
 pub mod visible;
 

@@ -35,9 +35,7 @@ impl Settings {
         let mut settings = self.clone();
         match self.technique.taps {
             Taps::None => return Err(refused(String::from("it takes none"))),
-            Taps::Count(name) => settings
-                .set(name, f64::from(taps))
-                .map_err(|error| refused(error.message))?,
+            Taps::Count(name) => settings.set(name, f64::from(taps))?,
             Taps::Lines {
                 count,
                 sides,
@@ -49,7 +47,7 @@ impl Settings {
                     ((f64::from(lines) / per_line).ln() - wanted).abs()
                 };
                 let lines = (1..=taps / sides)
-                    .filter(|lines| taps % (sides * lines) == 0)
+                    .filter(|lines| taps.is_multiple_of(sides * lines))
                     .min_by(|&a, &b| off(a).total_cmp(&off(b)))
                     .ok_or_else(|| refused(format!("allowed are multiples of {sides}")))?;
                 settings.set(count, f64::from(lines))?;

@@ -3,10 +3,10 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use super::super::files::encode_occlusion;
+use super::super::files::{encode_occlusion, write_whole};
 use super::super::manifest::StimulusError;
 use crate::reference::Estimates;
-use exr::prelude::{Image, SpecificChannels, WritableImage};
+use exr::prelude::{Image, ReadChannels, ReadLayers, SpecificChannels, WritableImage};
 
 /// The occlusion as a 16-bit grey PNG: 0 closed, 65535 open, linear.
 pub(super) fn png(
@@ -38,6 +38,50 @@ pub(super) fn exr(
         .to_buffered(&mut bytes)
         .map_err(|error| not_encoded(path, &error))?;
     Ok(bytes.into_inner())
+}
+
+/// Writes what was found, whole or not at all.
+///
+/// # Errors
+/// [`StimulusError`] of the file.
+pub fn write_exr(
+    path: &Path,
+    estimates: &Estimates,
+    size_px: (u32, u32),
+) -> Result<(), StimulusError> {
+    write_whole(path, &exr(path, estimates, size_px)?)
+}
+
+/// What [`write_exr`] has written, without its count of rays; `None` where there is no such file
+/// of this size.
+#[must_use]
+pub fn read_exr(path: &Path, (width, height): (u32, u32)) -> Option<Estimates> {
+    let (width, height) = (width as usize, height as usize);
+    let image = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .from_file(path)
+        .ok()?;
+    let layer = image.layer_data;
+    if (layer.size.x(), layer.size.y()) != (width, height) {
+        return None;
+    }
+    let channel = |name: &str| {
+        let mut channels = layer.channel_data.list.iter();
+        let channel = channels.find(|channel| channel.name == *name)?;
+        Some(channel.sample_data.values_as_f32().collect::<Vec<f32>>())
+    };
+    let (occlusion, standard_error) = (channel("occlusion")?, channel("standard_error")?);
+    Some(Estimates {
+        // Where there is no surface there is no error either, and nowhere else.
+        surfaces: standard_error.iter().filter(|error| **error > 0.0).count() as u64,
+        occlusion,
+        standard_error,
+        rays: 0,
+    })
 }
 
 fn not_encoded(path: &Path, error: &dyn std::fmt::Display) -> StimulusError {
