@@ -14,6 +14,7 @@ pub const FILES: &[(&str, &str)] = &[
         "stimuli/thesis-2010.toml",
         include_str!("../stimuli/thesis-2010.toml"),
     ),
+    (VOTES, include_str!("../stimuli/thesis-2010-votes.csv")),
     (
         "stimuli/validity.toml",
         include_str!("../stimuli/validity.toml"),
@@ -45,6 +46,10 @@ pub const PROTOCOL: &str = "protocols/thesis-2010.toml";
 
 /// Its stimulus set, among [`FILES`].
 pub const STIMULI: &str = "stimuli/thesis-2010.toml";
+
+/// The votes of the 36 participants of 2010, by condition of [`STIMULI`] (thesis, table 4), among
+/// [`FILES`]. They saw the images of 2010, not Greyfield's.
+pub const VOTES: &str = "stimuli/thesis-2010-votes.csv";
 
 /// Writes the configs under `folder`. A file that is there already stays as it is, because
 /// somebody may have edited it; those that differ from the embedded ones are returned.

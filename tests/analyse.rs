@@ -34,7 +34,7 @@ fn refusal(arguments: &[&str]) -> String {
 }
 
 fn counts_2010() -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/thesis-2010-counts.csv");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("stimuli/thesis-2010-votes.csv");
     path.to_str().unwrap().to_owned()
 }
 

@@ -11,7 +11,7 @@ use crate::render::technique::{Settings, SettingsError};
 
 /// FLIP of a difference that is just noticed on an even patch: of mid grey (sRGB 128) and a grey
 /// 2.3 lighter in L*.
-pub const JUST_NOTICEABLE: f64 = 0.105;
+pub const JUST_NOTICEABLE: f64 = 0.1;
 
 /// What is advised for a scene under one lighting.
 #[derive(Debug, Clone, PartialEq)]
@@ -142,7 +142,6 @@ pub(super) mod tests {
             .unwrap();
         let [below, above] =
             [above - 1, above].map(|level| flip(&grey(128), &grey(level), ppd).unwrap().mean());
-        println!("{below} {above}");
         assert!(
             (below..=above).contains(&JUST_NOTICEABLE),
             "{below} {above}"
@@ -175,6 +174,7 @@ pub(super) mod tests {
             estimator_rmse: 0.0,
             estimator_bias: 0.0,
             information_loss_rmse: 0.0,
+            thickness_m: 0.1,
             truth_error: 0.0,
             flip_mean: flip_p95 / 2.0,
             flip_p95,

@@ -131,7 +131,7 @@ impl<'a> SceneBench<'a> {
             times,
             error: truth.error_of(&occlusion),
             estimator_error: truth.estimator_error_of(&occlusion),
-            information_loss: truth.information_loss,
+            information_loss: truth.known.loss,
             occlusion,
             images,
         })

@@ -58,6 +58,9 @@ pub struct Row {
     pub estimator_bias: f64,
     /// What the depth buffer alone answers against the truth.
     pub information_loss_rmse: f64,
+    /// The thickness of what is seen at which the depth buffer's answer is nearest to the truth,
+    /// metres; infinite for solid.
+    pub thickness_m: f32,
     /// Standard error of the truth, root mean square.
     pub truth_error: f64,
     /// Image against the image with the true occlusion: mean FLIP, 0 to 1.
@@ -87,6 +90,8 @@ pub struct Common {
     pub reach_m: f64,
     /// Standard error of the truth.
     pub truth_error: f64,
+    /// Thickness of the depth buffer's best answer, metres.
+    pub thickness_m: f32,
     /// Size of the images, pixels.
     pub size_px: (u32, u32),
     /// What draws.
@@ -138,6 +143,7 @@ impl Row {
             estimator_rmse: measured.estimator_error.rmse,
             estimator_bias: measured.estimator_error.bias,
             information_loss_rmse: measured.information_loss.rmse,
+            thickness_m: common.thickness_m,
             truth_error: common.truth_error,
             flip_mean: image.flip.mean(),
             flip_p95: f64::from(image.flip.percentile(0.95)),

@@ -134,6 +134,7 @@ pub fn run(
         scene: scene.id.clone(),
         reach_m: sweep.reach_m,
         truth_error: truth.standard_error,
+        thickness_m: truth.known.thickness_m,
         size_px: about.size_px,
         adapter: about.adapter,
         run: store.run(),

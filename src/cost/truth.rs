@@ -35,7 +35,7 @@ impl Default for TruthOptions {
         Self {
             reach_m: 0.5,
             error: 0.01,
-            screen_space_pixels: 16_384,
+            screen_space_pixels: 8192,
         }
     }
 }
@@ -67,10 +67,21 @@ pub struct Truth {
     pub standard_error: f64,
     /// Which pixels show a surface: errors are of these.
     pub has_surface: Vec<bool>,
-    /// Some of these pixels, and what the depth buffer alone answers there.
-    pub screen_space: Vec<(usize, f32)>,
-    /// Of that answer against the truth.
-    pub information_loss: OcclusionError,
+    /// What the depth buffer alone can know of it.
+    pub known: KnownByDepth,
+}
+
+/// What the depth buffer alone can know of a picture's occlusion. It does not say how thick
+/// anything is; its best answer is that of the thickness, one for the whole picture, at which it
+/// comes nearest to the truth.
+#[derive(Debug, Clone)]
+pub struct KnownByDepth {
+    /// Some of the pixels with a surface, and the answer there.
+    pub answers: Vec<(usize, f32)>,
+    /// The thickness, metres; infinite for solid.
+    pub thickness_m: f32,
+    /// Of the answer against the truth: the information that is lost.
+    pub loss: OcclusionError,
 }
 
 impl Truth {
@@ -110,35 +121,21 @@ impl Truth {
         };
         (progress.step)(&format!("{}: what the depth buffer can know", scene.id));
         let pixels = spread_pixels(&surfaces, options.screen_space_pixels);
-        let field = ScreenSpace::new(&surfaces);
-        let asked = estimate(&Thinned::new(&field, pixels.clone()), &settings, &|_| {})
-            .map_err(|error| RenderError::Request(error.to_string()))?;
-        Ok(Self::of(
-            &surfaces,
-            traced,
-            pixels.into_iter().zip(asked.occlusion).collect(),
-        ))
-    }
-
-    fn of(surfaces: &VisibleSurfaces, traced: Estimates, screen_space: Vec<(usize, f32)>) -> Self {
+        let known = KnownByDepth::find(&surfaces, &traced, pixels, options, &settings)?;
         let squares = traced.standard_error.iter().map(|&e| f64::from(e).powi(2));
         let standard_error = (squares.sum::<f64>() / (traced.surfaces as f64).max(1.0)).sqrt();
-        let pairs = screen_space
-            .iter()
-            .map(|&(pixel, k)| (k, traced.occlusion[pixel]));
-        Self {
+        Ok(Self {
             standard_error,
-            information_loss: OcclusionError::of(pairs),
+            known,
             has_surface: (0..surfaces.len())
                 .map(|pixel| surfaces.has_surface(pixel))
                 .collect(),
-            screen_space,
             occlusion: Arc::new(FloatImage {
                 width_px: surfaces.width_px,
                 height_px: surfaces.height_px,
                 values: traced.occlusion,
             }),
-        }
+        })
     }
 
     /// Error of an estimate of the same picture.
@@ -152,7 +149,7 @@ impl Truth {
     /// Error of an estimate against what the depth buffer alone answers.
     #[must_use]
     pub fn estimator_error_of(&self, found: &FloatImage) -> OcclusionError {
-        let pairs = self.screen_space.iter();
+        let pairs = self.known.answers.iter();
         OcclusionError::of(pairs.map(|&(pixel, answer)| (found.values[pixel], answer)))
     }
 
@@ -196,6 +193,42 @@ impl Subject<'_> {
         )))
     }
 }
+
+impl KnownByDepth {
+    fn find(
+        surfaces: &VisibleSurfaces,
+        traced: &Estimates,
+        pixels: Vec<usize>,
+        options: &TruthOptions,
+        settings: &OcclusionSettings,
+    ) -> Result<Self, CostError> {
+        let answer = |thickness_m: f32, pixels: &[usize]| {
+            let field = ScreenSpace::new(surfaces).with_thickness_m(thickness_m);
+            let asked = estimate(&Thinned::new(&field, pixels.to_vec()), settings, &|_| {})
+                .map_err(|error| RenderError::Request(error.to_string()))?;
+            let pairs = asked.occlusion.iter().zip(pixels);
+            let loss = OcclusionError::of(pairs.map(|(k, pixel)| (*k, traced.occlusion[*pixel])));
+            Ok::<_, CostError>(Self {
+                answers: pixels.iter().copied().zip(asked.occlusion).collect(),
+                thickness_m,
+                loss,
+            })
+        };
+        // A quarter of the pixels tells which thickness it is.
+        let some: Vec<usize> = pixels.iter().copied().step_by(4).collect();
+        let mut best = answer(f32::INFINITY, &some)?;
+        for part in THICKNESSES {
+            let other = answer((part * options.reach_m.max(1e-3)) as f32, &some)?;
+            if other.loss.rmse < best.loss.rmse {
+                best = other;
+            }
+        }
+        answer(best.thickness_m, &pixels)
+    }
+}
+
+/// The thicknesses that are tried beside solid, in parts of the reach.
+const THICKNESSES: [f64; 5] = [1.0 / 32.0, 0.125, 0.25, 0.5, 1.0];
 
 /// About `count` pixels with a surface, spread evenly and in no step with any grid: the R2
 /// sequence of Roberts 2018.

@@ -2,8 +2,8 @@
 //! technique is given.
 //!
 //! The buffer is taken for a height field: neighbouring samples are joined by triangles, and
-//! everything behind them is solid, to any thickness. A ray that leaves the picture, or comes
-//! before the near plane, is open: nothing is known there.
+//! everything behind them is solid, to any thickness, or to one and the same everywhere. A ray that
+//! leaves the picture, or comes before the near plane, is open: nothing is known there.
 //!
 //! On the picture a ray is a straight line along which 1/depth is linear, and so it is over a
 //! triangle. A ray therefore meets the field only between two crossings with the lines that
@@ -30,6 +30,8 @@ pub struct ScreenSpace<'a> {
     size_px: [i64; 2],
     /// The nearest sample's.
     largest: f64,
+    /// How deep what is seen goes on behind what is seen of it, metres.
+    thickness_m: f64,
 }
 
 /// The start of a pixel's rays.
@@ -75,7 +77,25 @@ impl<'a> ScreenSpace<'a> {
             inverse_depth,
             size_px: [i64::from(surfaces.width_px), i64::from(surfaces.height_px)],
             largest: f64::from(largest),
+            thickness_m: f64::INFINITY,
         }
+    }
+
+    /// The same where what is seen goes on so many metres behind what is seen of it, and rays
+    /// pass farther behind. Samples farther apart than this in depth are not joined.
+    #[must_use]
+    pub fn with_thickness_m(mut self, thickness_m: f32) -> Self {
+        self.thickness_m = f64::from(thickness_m);
+        self
+    }
+
+    /// Whether a ray that lies behind the field by `gap` (1/m) at `s` has passed beyond its
+    /// thickness.
+    fn is_beyond(&self, line: &Line, s: f64, gap: f64) -> bool {
+        let ray = line.inverse_depth + line.slope * s;
+        let field = (gap + ray) / (1.0 - ROUNDING);
+        // A ray beyond infinity is beyond everything that is not solid to there.
+        self.thickness_m.is_finite() && (ray <= 0.0 || 1.0 / ray - 1.0 / field > self.thickness_m)
     }
 
     fn line(&self, start: &PixelStart, direction: Vec3, reach_m: f32) -> Line {
@@ -168,10 +188,13 @@ impl<'a> ScreenSpace<'a> {
                 return None;
             }
             let gap = self.gap(line, family, s, at);
-            if gap > 0.0 {
-                // Both are linear in between. At its very end a ray meets nothing any more: to
-                // infinity, what is there is the sky.
-                let share = -before.1 / (gap - before.1);
+            if gap > 0.0 && !self.is_beyond(line, s, gap) {
+                // Both are linear in between; a ray that comes back from behind is met here. At
+                // its very end a ray meets nothing any more: to infinity, what is there is the sky.
+                let share = match before.1 > 0.0 {
+                    true => 1.0,
+                    false => -before.1 / (gap - before.1),
+                };
                 let met = before.0 + (s - before.0) * share.clamp(0.0, 1.0);
                 return (met < line.end * (1.0 - 1e-9)).then_some(met);
             }

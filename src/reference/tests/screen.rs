@@ -91,6 +91,59 @@ fn what_is_met_is_as_far_as_it_is() {
     assert!(!field.is_blocked(&start, Vec3::new(0.0, 0.1, 1.0).normalize(), f32::INFINITY));
 }
 
+/// A post stands before a wall: with no thickness at all light passes behind it, so that the wall
+/// beside it is nearly as open as without the post; as a solid to infinity it closes half the sky.
+#[test]
+fn rays_pass_behind_what_is_thin() {
+    let post = crate::scene::primitives::cuboid(
+        "post",
+        Vec3::new(-0.1, 0.0, 2.0),
+        Vec3::new(0.1, 3.0, 2.02),
+    );
+    let bvh = SceneBvh::new(&geometry(vec![wall(8.0, 6.0), post]));
+    let before = camera(Vec3::new(0.0, 1.5, 6.0), Vec3::new(0.0, 1.5, 0.0));
+    let surfaces = seen(&bvh, before, (240, 180));
+    let pixel = 90 * 240 + 132;
+    assert!(
+        (surfaces.depth_m[pixel] - 6.0).abs() < 0.01,
+        "beside the post"
+    );
+    let settings = OcclusionSettings::new(1);
+    let [solid, thick, thin] = [f32::INFINITY, 0.5, 0.02].map(|thickness_m| {
+        let field = ScreenSpace::new(&surfaces).with_thickness_m(thickness_m);
+        estimate(&OnePoint(&field, pixel), &settings, &|_| {})
+            .unwrap()
+            .occlusion[0]
+    });
+    // The post's own solid angle from there: 0.2 × 3 m at 2 m.
+    assert!(thin > 0.85, "{thin}");
+    assert!(solid < 0.6, "{solid}");
+    assert!(
+        solid < thick && thick < thin + 0.01,
+        "{solid} {thick} {thin}"
+    );
+}
+
+/// Whatever lies in front of a plane is met from the front, at any thickness.
+#[test]
+fn thickness_changes_nothing_that_is_met_from_the_front() {
+    let scene = geometry(vec![floor(100.0), wall(3.0, 2.0)]);
+    let bvh = SceneBvh::new(&scene);
+    let before = camera(Vec3::new(0.0, 2.2, 5.5), Vec3::new(0.0, 0.5, 0.0));
+    let surfaces = seen(&bvh, before, (320, 240));
+    let direction = Vec3::new(0.3, 0.2, -1.0).normalize();
+    let nearest = |field: ScreenSpace<'_>| {
+        let (start, _) = field.start(170 * 320 + 160).unwrap();
+        field.nearest_m(&start, direction, 100.0)
+    };
+    let solid = nearest(ScreenSpace::new(&surfaces));
+    assert!(solid.is_some());
+    assert_eq!(
+        solid,
+        nearest(ScreenSpace::new(&surfaces).with_thickness_m(0.3))
+    );
+}
+
 /// One pixel of a field.
 struct OnePoint<'a>(&'a ScreenSpace<'a>, usize);
 
