@@ -128,31 +128,49 @@ impl Row {
             resolution: configuration.resolution(),
             blur_px: configuration.blur_radius_px,
             parameters: configuration.parameters(),
-            total_ms: times.map_or(0.0, |times| times.total_ms.median),
-            total_low_ms: interval.map(|(low, _)| low),
-            total_high_ms: interval.map(|(_, high)| high),
-            occlusion_ms: times.and_then(|times| times.occlusion_ms),
-            blur_ms: times.and_then(|times| times.blur_ms),
-            upsample_ms: times.and_then(|times| times.upsample_ms),
+            total_ms: times.map_or(0.0, |times| rounded(times.total_ms.median)),
+            total_low_ms: interval.map(|(low, _)| rounded(low)),
+            total_high_ms: interval.map(|(_, high)| rounded(high)),
+            occlusion_ms: times.and_then(|times| times.occlusion_ms).map(rounded),
+            blur_ms: times.and_then(|times| times.blur_ms).map(rounded),
+            upsample_ms: times.and_then(|times| times.upsample_ms).map(rounded),
             frames: times.map_or(0, |times| times.total_ms.count),
             clock: times.map(|times| times.clock),
-            rmse: measured.error.rmse,
-            mae: measured.error.mae,
-            p95: measured.error.p95,
-            bias: measured.error.bias,
-            estimator_rmse: measured.estimator_error.rmse,
-            estimator_bias: measured.estimator_error.bias,
-            information_loss_rmse: measured.information_loss.rmse,
+            rmse: rounded(measured.error.rmse),
+            mae: rounded(measured.error.mae),
+            p95: rounded(measured.error.p95),
+            bias: rounded(measured.error.bias),
+            estimator_rmse: rounded(measured.estimator_error.rmse),
+            estimator_bias: rounded(measured.estimator_error.bias),
+            information_loss_rmse: rounded(measured.information_loss.rmse),
             thickness_m: common.thickness_m,
-            truth_error: common.truth_error,
-            flip_mean: image.flip.mean(),
-            flip_p95: f64::from(image.flip.percentile(0.95)),
-            ssim: image.ssim,
+            truth_error: rounded(common.truth_error),
+            flip_mean: rounded(image.flip.mean()),
+            flip_p95: rounded(f64::from(image.flip.percentile(0.95))),
+            ssim: rounded(image.ssim),
             reach_m: common.reach_m,
             width_px: common.size_px.0,
             height_px: common.size_px.1,
             adapter: format!("{}; {}", adapter.name, adapter.driver),
             run: common.run,
         }
+    }
+}
+
+/// To six significant digits: more than any of these numbers has.
+fn rounded(number: f64) -> f64 {
+    // What a float prints, it reads back.
+    format!("{number:.5e}").parse().unwrap_or(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded;
+
+    #[test]
+    fn six_digits_stay() {
+        assert_eq!(rounded(0.123_456_789), 0.123_457);
+        assert_eq!(rounded(1_234_567.0), 1_234_570.0);
+        assert_eq!((rounded(0.0), rounded(-2.5)), (0.0, -2.5));
     }
 }
