@@ -11,6 +11,7 @@ mod html;
 mod json;
 mod methods;
 mod number;
+mod svg;
 mod text;
 
 use crate::analysis::Analysis;

@@ -1,11 +1,11 @@
 //! The figures: stacked votes with intervals, and the position chosen.
 
-use super::svg::{Anchor, Svg};
 use crate::analysis::Analysis;
 use crate::analysis::dataset::{ConditionData, Votes};
 use crate::analysis::position_bias::{pooled, positions_as_votes};
 use crate::analysis::settings::Settings;
 use crate::analysis::wilson;
+use crate::report::svg::{Anchor, Svg};
 
 const WIDTH: f64 = 860.0;
 /// Left end of the scale from 0 to 100 %; the labels stand before it.

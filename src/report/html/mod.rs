@@ -1,11 +1,11 @@
 //! The report as one page: no script, no font, no picture from elsewhere.
 
 mod figures;
-mod svg;
 
 use std::fmt::Write as _;
 
 use super::number::{align_decimals, shown};
+use super::svg::escape;
 use super::text::reasons;
 use super::{VERSION, methods};
 use crate::analysis::Analysis;
@@ -13,7 +13,6 @@ use crate::analysis::conditions::{Verdict, main_family};
 use crate::analysis::registry;
 use crate::analysis::statistic::SectionTable;
 use crate::analysis::table::{Group, Style, Table};
-use svg::escape;
 
 /// Id of the section that is drawn with its figure.
 const POSITION: &str = "position_bias";
