@@ -5,6 +5,7 @@
 
 pub mod canvas;
 pub mod colour_map;
+pub mod cost;
 mod csv;
 pub mod error_picture;
 mod html;

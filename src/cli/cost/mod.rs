@@ -3,6 +3,7 @@
 mod measure;
 mod pictures;
 mod sweep_args;
+mod written;
 
 use std::path::{Path, PathBuf};
 
@@ -10,11 +11,13 @@ use anyhow::anyhow;
 use clap::Args;
 
 use super::{Failure, Verbosity};
+use crate::analysis::dataset::Dataset;
 use crate::analysis::input::{self, Options};
 use crate::cost::input::is_set;
 use crate::cost::scaling::{self, ScalingOptions, ScalingRow};
 use crate::cost::votes::{self, Preference};
 use crate::cost::{CostError, Store};
+use crate::embedded;
 use crate::stimulus::StimulusSet;
 use crate::stimulus::progress::Progress;
 pub use measure::measure;
@@ -85,19 +88,27 @@ pub fn run(args: &Cost, verbosity: Verbosity) -> Result<(), Failure> {
     };
     let growth = match args.scaling {
         true => growth(args, &opened, verbosity).map_err(failure)?,
-        false => Vec::new(),
+        false => written::kept_growth(&opened.store)?,
     };
+    opened.store.finish().map_err(failure)?;
+    let votes_source = votes.map_or_else(String::new, |votes| votes.source);
+    written::write(&opened.store, &preferences, &votes_source, &growth).map_err(failure)?;
     let store = &opened.store;
-    store.finish().map_err(failure)?;
-    let _ = (preferences, growth);
-    println!("{} rows in {}", store.rows.len(), store.path("").display());
+    println!(
+        "{} rows in {}; everything on one page: {}",
+        store.rows.len(),
+        store.path("cost.csv").display(),
+        store.path("cost.html").display()
+    );
     Ok(())
 }
 
 /// Choices of a study, and the set that they are about.
 struct Votes {
     set: StimulusSet,
-    data: crate::analysis::dataset::Dataset,
+    data: Dataset,
+    /// Whose they are.
+    source: String,
 }
 
 impl Votes {
@@ -113,14 +124,31 @@ impl Votes {
             )));
         };
         let data = input::read(&[path.to_owned()], Options::default());
+        let source = args.votes_by.clone().unwrap_or_else(|| whose(path));
         Ok(Self {
             set: StimulusSet::load(set).map_err(Failure::bad_input)?,
             data: data.map_err(Failure::bad_input)?,
+            source,
         })
     }
 
     fn join(&self, store: &Store) -> Result<Vec<Preference>, CostError> {
         votes::join(&self.set, &self.data, &store.rows)
+    }
+}
+
+/// Whose votes a file has, where nobody says it.
+fn whose(path: &Path) -> String {
+    let is_shipped = std::fs::read(path).is_ok_and(|found| {
+        embedded::FILES
+            .iter()
+            .any(|(name, text)| *name == embedded::VOTES && text.as_bytes() == found)
+    });
+    match is_shipped {
+        true => {
+            String::from("votes of the 36 participants of 2010 on the images of 2010, not on these")
+        }
+        false => format!("votes of {}", path.display()),
     }
 }
 
