@@ -12,6 +12,9 @@ use crate::stimulus::manifest::StimulusError;
 /// Folder of the pictures, in the sweep's.
 pub const FOLDER: &str = "pictures";
 
+/// What stands for a configuration in the names of the truth's pictures.
+pub const TRUTH: &str = "truth";
+
 /// Error of the occlusion coefficient at the ends of the scale.
 const LARGEST_ERROR: f32 = 0.5;
 
@@ -58,10 +61,10 @@ impl Pictures {
         }
         let scene = &sweep.scene.id;
         for (lighting, picture) in bench.true_pictures() {
-            self.image(&format!("{scene}--truth--{lighting}"), picture)?;
+            self.image(&format!("{scene}--{TRUTH}--{lighting}"), picture)?;
         }
         let truth = &bench.truth().occlusion;
-        let path = self.folder.join(format!("{scene}--truth--occlusion.png"));
+        let path = self.folder.join(format!("{scene}--{TRUTH}--occlusion.png"));
         let size_px = (truth.width_px, truth.height_px);
         Ok(write_whole(
             &path,

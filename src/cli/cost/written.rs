@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::anyhow;
 
-use super::pictures::FOLDER;
+use super::pictures::{FOLDER, TRUTH};
 use crate::cli::Failure;
 use crate::cost::scaling::{ScalingRow, exponents};
 use crate::cost::votes::Preference;
@@ -75,31 +75,59 @@ fn text(written: Result<String, ReportError>) -> Result<String, CostError> {
     written.map_err(|error| CostError::Input(error.to_string()))
 }
 
-/// The pictures of the folder as the page shows them: truth first, then by name. One that cannot
-/// be read is left out: the page is for people, and the tables have everything.
+/// The pictures of the folder as the page shows them: the truth's first, then configuration by
+/// configuration. One that cannot be read is left out: the page is for people, and the tables have
+/// everything.
 fn pictures(store: &Store) -> Vec<PagePicture> {
-    let scenes: Vec<&String> = store.record.scenes.keys().collect();
-    let mut names: Vec<String> = std::fs::read_dir(store.path(FOLDER))
+    let mut found: Vec<Found> = std::fs::read_dir(store.path(FOLDER))
         .into_iter()
         .flatten()
         .flatten()
-        .filter_map(|entry| entry.file_name().into_string().ok())
-        .filter(|name| name.ends_with(".png"))
+        .filter_map(|entry| Found::of(entry.file_name().into_string().ok()?))
+        .filter(|found| store.record.scenes.contains_key(&found.scene))
         .collect();
-    names.sort_by_key(|name| (!name.contains("--truth--"), name.clone()));
-    let of = |name: &String| {
-        let (scene, rest) = name.strip_suffix(".png")?.split_once("--")?;
-        scenes.iter().find(|known| **known == scene)?;
+    found.sort_by_key(|found| (found.subject != TRUTH, found.subject.clone(), found.order()));
+    let of = |found: Found| {
         Some(PagePicture {
-            scene: scene.to_owned(),
-            caption: rest
-                .replace("--", ", ")
-                .replace("truth, occlusion", "true occlusion"),
+            caption: format!(
+                "{}: {}",
+                found.subject,
+                found.what.replace("--", ", ").replace('-', " ")
+            ),
+            bytes: small_jpeg(&store.path(FOLDER).join(&found.file))?,
             mime: "image/jpeg",
-            bytes: small_jpeg(&store.path(FOLDER).join(name))?,
+            scene: found.scene,
+            subject: found.subject,
         })
     };
-    names.iter().filter_map(of).collect()
+    found.into_iter().filter_map(of).collect()
+}
+
+/// A picture by its name, `SCENE--SUBJECT--WHAT.png`.
+struct Found {
+    file: String,
+    scene: String,
+    subject: String,
+    what: String,
+}
+
+impl Found {
+    fn of(file: String) -> Option<Self> {
+        let mut parts = file.strip_suffix(".png")?.splitn(3, "--");
+        let mut part = || parts.next().map(str::to_owned);
+        let (scene, subject, what) = (part()?, part()?, part()?);
+        Some(Self {
+            file,
+            scene,
+            subject,
+            what,
+        })
+    }
+
+    /// The occlusion before the images, an image before what differs in it.
+    fn order(&self) -> (bool, String) {
+        (!self.what.starts_with("occlusion"), self.what.clone())
+    }
 }
 
 fn small_jpeg(path: &Path) -> Option<Vec<u8>> {

@@ -70,6 +70,8 @@ pub struct CostReport<'a> {
 pub struct PagePicture {
     /// Id of the scene it belongs to.
     pub scene: String,
+    /// The configuration that it shows: pictures of one stand together.
+    pub subject: String,
     /// What it shows.
     pub caption: String,
     /// Media type: `image/png`.

@@ -129,14 +129,17 @@ fn of_scene(page: &mut String, report: &CostReport, scene: &str) {
 }
 
 fn pictures(page: &mut String, report: &CostReport, scene: &str) {
-    let here: Vec<_> = (report.pictures.iter())
+    let mut subject = None;
+    for picture in report
+        .pictures
+        .iter()
         .filter(|picture| picture.scene == scene)
-        .collect();
-    if here.is_empty() {
-        return;
-    }
-    page.push_str("<div class=\"pictures\">\n");
-    for picture in here {
+    {
+        if subject != Some(&picture.subject) {
+            page.push_str(if subject.is_some() { "</div>\n" } else { "" });
+            page.push_str("<div class=\"pictures\">\n");
+            subject = Some(&picture.subject);
+        }
         let caption = escape(&picture.caption);
         let _ = writeln!(
             page,
@@ -145,7 +148,7 @@ fn pictures(page: &mut String, report: &CostReport, scene: &str) {
             STANDARD.encode(&picture.bytes)
         );
     }
-    page.push_str("</div>\n");
+    page.push_str(if subject.is_some() { "</div>\n" } else { "" });
 }
 
 fn estimators(page: &mut String, report: &CostReport) {

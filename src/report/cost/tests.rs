@@ -230,6 +230,7 @@ fn the_page_loads_nothing_and_holds_everything() {
     let preferences = [preference((0.0, 2.0), 0.8)];
     let pictures = [PagePicture {
         scene: String::from("hall"),
+        subject: String::from("alpha"),
         caption: String::from("alpha < truth"),
         mime: "image/png",
         bytes: vec![1, 2, 3],
