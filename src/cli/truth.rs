@@ -44,6 +44,10 @@ pub struct Truth {
     /// Also find the answer that the depth buffer alone allows.
     #[arg(long)]
     screen_space: bool,
+    /// For that answer: how deep what is seen goes on behind what is seen of it, metres
+    /// [default: solid, to any depth].
+    #[arg(long, value_name = "M", requires = "screen_space")]
+    thickness_m: Option<f32>,
     /// Where to put the images [default: a folder named like the set with -truth, beside it].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -76,7 +80,13 @@ pub fn run(args: &Truth, verbosity: Verbosity) -> Result<(), Failure> {
             ..OcclusionSettings::new(set.seed)
         },
         screen_space: args.screen_space,
+        thickness_m: args.thickness_m,
     };
+    if let Some(found) = args.thickness_m.filter(|m| !(*m >= 0.0 && m.is_finite())) {
+        return Err(Failure::bad_input(anyhow::anyhow!(
+            "--thickness-m: found {found}, a thickness is 0 m or more"
+        )));
+    }
     options.settings.check().map_err(Failure::bad_input)?;
     let only = args.only.as_deref();
     let scenes = truth::scenes(&set, only).map_err(Failure::bad_input)?.len();

@@ -32,6 +32,9 @@ pub struct TruthOptions {
     pub settings: OcclusionSettings,
     /// Whether the depth buffer's own answer is made too.
     pub screen_space: bool,
+    /// How deep what is seen goes on behind what is seen of it, metres, for that answer; `None`
+    /// for solid.
+    pub thickness_m: Option<f32>,
 }
 
 /// The scenes that a set, or its condition `only`, renders; each by the first of its pairs.
@@ -132,9 +135,12 @@ impl Maker<'_> {
             self.image(&scene.id, TruthKind::RayTraced, &surfaces, &points)?;
         made.push(image);
         if self.options.screen_space {
-            let field = ScreenSpace::new(&surfaces);
+            let thickness_m = self.options.thickness_m;
+            let field =
+                ScreenSpace::new(&surfaces).with_thickness_m(thickness_m.unwrap_or(f32::INFINITY));
             let found;
             (image, found) = self.image(&scene.id, TruthKind::ScreenSpace, &surfaces, &field)?;
+            image.thickness_m = thickness_m;
             image.information_loss = Some(record::mean_distance(&traced, &found));
             made.push(image);
         }
@@ -175,6 +181,7 @@ impl Maker<'_> {
             mrays_per_s: found.rays as f64 / seconds / 1e6,
             seconds,
             information_loss: None,
+            thickness_m: None,
         };
         Ok((image, found))
     }

@@ -84,6 +84,9 @@ pub struct TruthImage {
     /// scene's, where both are there: what the depth buffer does not know.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub information_loss: Option<f64>,
+    /// Of the depth buffer's answer: how deep what is seen goes on, metres; absent for solid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness_m: Option<f32>,
 }
 
 impl TruthImage {
