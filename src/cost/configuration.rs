@@ -130,6 +130,9 @@ impl Grid {
         // The widest first: its timing tells the unblurred one, too.
         blurs.sort_unstable_by(|a, b| b.cmp(a));
         blurs.dedup();
+        let mut samples = self.samples.clone();
+        samples.sort_unstable();
+        samples.dedup();
         for technique in &self.techniques {
             let settings = of_scene(scene, technique)
                 .and_then(|settings| settings.with_reach_m(self.reach_m))
@@ -141,7 +144,7 @@ impl Grid {
                 });
                 continue;
             }
-            for &samples in &self.samples {
+            for &samples in &samples {
                 match settings.with_taps(samples) {
                     Ok(settings) => self.variants(&settings, samples, &blurs, &mut found.list)?,
                     Err(error) => found.left_out.push(error.message),
@@ -158,7 +161,10 @@ impl Grid {
         blurs_px: &[u32],
         list: &mut Vec<Configuration>,
     ) -> Result<(), CostError> {
-        for resolution in &self.resolutions {
+        let mut resolutions = self.resolutions.clone();
+        resolutions.sort();
+        resolutions.dedup();
+        for resolution in resolutions {
             let mut settings = settings.clone();
             settings.label = format!("{}-{samples}", settings.technique.name);
             settings
@@ -199,5 +205,66 @@ pub fn reach_m(scene: &SceneConfig) -> Result<f64, SettingsError> {
             parameter: None,
             message: format!("there is no technique {name}"),
         }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::embedded;
+
+    fn atrium() -> SceneConfig {
+        let name = "stimuli/scenes/atrium.toml";
+        let (_, text) = embedded::FILES
+            .iter()
+            .find(|(file, _)| *file == name)
+            .unwrap();
+        SceneConfig::parse(Path::new(name), text).unwrap()
+    }
+
+    fn grid(samples: &[u32]) -> Grid {
+        Grid {
+            techniques: Grid::all_techniques(),
+            samples: samples.to_vec(),
+            resolutions: vec![Resolution::Half, Resolution::Full, Resolution::Full],
+            blurs_px: None,
+            reach_m: 1.5,
+        }
+    }
+
+    #[test]
+    fn every_technique_looks_equally_far_and_often() {
+        let scene = atrium();
+        let found = grid(&[16, 8, 16]).on(&scene).unwrap();
+        assert!(found.left_out.is_empty());
+        // Nine techniques, two counts, two resolutions, two blurs; and none.
+        assert_eq!(found.list.len(), 1 + 9 * 8);
+        let mut ids: Vec<String> = found.list.iter().map(Configuration::id).collect();
+        ids.sort();
+        ids.dedup();
+        assert_eq!(ids.len(), found.list.len(), "no two are called alike");
+        for configuration in &found.list {
+            let settings = &configuration.settings;
+            assert!(
+                [0, 8, 16].contains(&settings.taps()),
+                "{}",
+                configuration.id()
+            );
+            if let (Some(reach), Some(_)) = (settings.technique.reach, settings.technique.shader) {
+                assert_eq!(settings.get(reach), 1.5, "{}", configuration.id());
+            }
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_is_left_out_and_said() {
+        let found = grid(&[5]).on(&atrium()).unwrap();
+        let said = found.left_out.join("\n");
+        for name in ["crytek", "gtao", "vbao"] {
+            assert!(said.contains(name), "{name}: {said}");
+        }
+        assert!(found.list.iter().any(|c| c.settings.label == "alchemy-5"));
     }
 }

@@ -58,6 +58,12 @@ impl Asked {
     }
 
     fn set(&mut self, set: &StimulusSet, grid: &Grid, wishes: &Wishes) -> Result<(), CostError> {
+        if set.scenes.is_empty() {
+            return Err(CostError::Input(format!(
+                "{}: its images were made elsewhere, so that there is no scene to measure",
+                set.path.display()
+            )));
+        }
         for (index, scene) in set.scenes.iter().enumerate() {
             let pairs = || {
                 set.rendered()
