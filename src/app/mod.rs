@@ -7,6 +7,7 @@
 //! sitting      one session on the screen: input in, picture out, rows to disk
 //! participant  one file a screen
 //! browser      the stimuli, for the experimenter alone
+//! stage        pictures under one zoom
 //! ```
 
 pub mod application;
@@ -18,6 +19,7 @@ pub mod error;
 pub mod participant;
 pub mod pictures;
 pub mod sitting;
+pub mod stage;
 pub mod start_page;
 pub mod stimuli_check;
 pub mod stimulus_view;
