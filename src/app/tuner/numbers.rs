@@ -64,12 +64,12 @@ const COLUMNS: [(&str, &str, Cell); 11] = [
     }),
     (
         "estimator",
-        "RMSE against the best answer that the depth buffer allows",
+        "RMSE against the depth buffer's own answer, which takes all behind it for solid",
         |n| format!("{:.4}", n.estimator_rmse),
     ),
     (
         "information",
-        "RMSE of that answer against the truth: what no technique can know that looks at the depth buffer alone",
+        "RMSE of the depth buffer's own answer against the truth",
         |n| format!("{:.4}", n.information_loss),
     ),
     (
