@@ -7,30 +7,34 @@
 //! sitting      one session on the screen: input in, picture out, rows to disk
 //! participant  one file a screen
 //! browser      the stimuli, for the experimenter alone
+//! tuner        what a technique costs, live, for the experimenter alone
+//! stage        pictures under one zoom, in both
 //! ```
 
 pub mod application;
 pub mod browser;
-mod browser_window;
 pub mod clock;
 pub mod display;
 pub mod error;
+mod experimenter_window;
 pub mod participant;
 pub mod pictures;
 pub mod sitting;
+pub mod stage;
 pub mod start_page;
 pub mod stimuli_check;
 pub mod stimulus_view;
 pub mod theme;
+pub mod tuner;
 pub mod window;
 
 use std::cell::RefCell;
 use std::rc::Rc;
 
 pub use application::{Application, Setup};
-pub use browser_window::browse;
 pub use display::available as display_available;
 pub use error::AppError;
+pub use experimenter_window::{browse, tune};
 
 /// Smallest window the start page reads well in, points.
 const START_PAGE: [u32; 2] = [1280, 800];

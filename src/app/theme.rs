@@ -89,7 +89,15 @@ const BROWSER_QUIET_INK: Color32 = Color32::from_gray(176);
 
 /// Dark greys and smaller type, for judging pictures and reading much about them.
 pub fn install_browser(ui: &mut egui::Ui) {
-    let style = ui.style_mut();
+    browser_style(ui.style_mut());
+}
+
+/// The same for a whole window: lists and hints open outside of the page that asks for them.
+pub fn install_browser_everywhere(ctx: &egui::Context) {
+    ctx.all_styles_mut(browser_style);
+}
+
+fn browser_style(style: &mut egui::Style) {
     style.visuals = browser_visuals();
     for (role, size) in [
         (TextStyle::Heading, 19.0),

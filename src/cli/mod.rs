@@ -12,8 +12,10 @@ mod order;
 mod output;
 mod render;
 mod run;
+mod size;
 mod techniques;
 mod truth;
+mod tune;
 
 use std::process::ExitCode;
 
@@ -46,6 +48,7 @@ enum Command {
     Cost(Box<cost::Cost>),
     Advise(Box<advise::Advise>),
     Browse(browse::Browse),
+    Tune(tune::Tune),
     Run(Box<run::Run>),
     Order(order::Order),
     Analyse(analyse::AnalyseArgs),
@@ -125,6 +128,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Cost(args) => cost::run(&args, verbosity),
         Command::Advise(args) => advise::run(&args, verbosity),
         Command::Browse(args) => browse::run(&args),
+        Command::Tune(args) => tune::run(&args),
         Command::Run(args) => run::run(&args, verbosity),
         Command::Order(args) => order::run(&args),
         Command::Analyse(args) => analyse::run(&args),

@@ -8,7 +8,7 @@ use eframe::egui::{
 use image::imageops::FilterType;
 
 use super::folder::{Folder, images};
-use super::pair::upload;
+use crate::app::stage::upload;
 use crate::app::theme;
 use crate::stimulus::manifest::{ImageRecord, PairRecord};
 use crate::stimulus::{Picture, sheet};

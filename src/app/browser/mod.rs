@@ -4,10 +4,9 @@
 //! No session leads here, so that no participant ever sees which technique made an image.
 //!
 //! ```text
-//! folder   what is looked at         gallery  the list of conditions
-//! pair     two pictures, compared    stage    the middle: zoom, pan, divider
-//! view     the arithmetic of zoom    facts    the side panel
-//! opened   the folder and what is    controls  the row over the stage
+//! folder   what is looked at         gallery     the list of conditions
+//! pair     two pictures, compared    facts       the side panel
+//! opened   the folder and what is    controls    the row over the stage
 //!          selected in it
 //! buffers  a frame's targets         background  work beside the interface
 //! ```
@@ -20,8 +19,6 @@ mod folder;
 mod gallery;
 mod opened;
 mod pair;
-mod stage;
-pub mod view;
 
 use std::path::Path;
 
@@ -30,7 +27,7 @@ use eframe::egui::{CentralPanel, Context, Frame, Key, Panel, Ui};
 use self::facts::Sheet;
 pub use self::folder::Folder;
 use self::opened::Opened;
-use self::stage::Stage;
+use super::stage::{self, Stage};
 use super::theme;
 use crate::render::Buffer;
 use crate::stimulus::manifest::PairRecord;

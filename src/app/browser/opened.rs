@@ -8,8 +8,8 @@ use super::buffers;
 use super::facts::{self, Sheet};
 use super::folder::Folder;
 use super::gallery::Gallery;
-use super::pair::{self, Pair};
-use super::stage::{self, Content, Stage};
+use super::pair::Pair;
+use crate::app::stage::{self, Content, Stage};
 use crate::render::Buffer;
 use crate::stimulus::manifest::{PairRecord, Picture};
 use crate::stimulus::set::{ImageSource, RenderedPair};
@@ -130,7 +130,7 @@ impl Opened {
                 && let Task::Done(pictures) = &buffers.task
             {
                 let upload = |(buffer, picture): &(Buffer, Picture)| {
-                    (*buffer, pair::upload(ctx, buffer.name(), picture))
+                    (*buffer, stage::upload(ctx, buffer.name(), picture))
                 };
                 buffers.textures = pictures.iter().map(upload).collect();
             }

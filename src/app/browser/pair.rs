@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use eframe::egui::{ColorImage, Context, TextureFilter, TextureHandle, TextureOptions};
+use eframe::egui::{Context, TextureHandle};
 
 use super::background::Task;
+use crate::app::stage::upload;
 use crate::stimulus::difference::{Difference, difference_picture};
 use crate::stimulus::manifest::{PairRecord, Picture};
 
@@ -85,16 +86,4 @@ impl Pair {
         }
         self.differences[slot].as_ref()
     }
-}
-
-/// A texture that shows every pixel when magnified, and averages when made smaller.
-pub fn upload(ctx: &Context, name: &str, picture: &Picture) -> TextureHandle {
-    let size = [picture.width_px as usize, picture.height_px as usize];
-    let image = ColorImage::from_rgba_unmultiplied(size, &picture.rgba8);
-    let options = TextureOptions {
-        magnification: TextureFilter::Nearest,
-        minification: TextureFilter::Linear,
-        ..TextureOptions::NEAREST
-    };
-    ctx.load_texture(name, image, options)
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::{Failure, Verbosity};
+use crate::cli::{Failure, Verbosity, size};
 use crate::config;
 use crate::cost::input::{Asked, Wishes};
 use crate::cost::store::{About, RunRecord};
@@ -39,7 +39,7 @@ pub struct SweepArgs {
     #[arg(long, value_name = "M")]
     radius: Option<f64>,
     /// Size of the images, pixels [default: the set's, or 1280x720].
-    #[arg(long, value_name = "WxH", value_parser = size)]
+    #[arg(long, value_name = "WxH", value_parser = size::size)]
     size: Option<(u32, u32)>,
     /// Frames timed of each configuration.
     #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=100_000))]
@@ -78,23 +78,6 @@ const FEWEST_FRAMES: u32 = 6;
 enum ResolutionArg {
     Full,
     Half,
-}
-
-/// `1280x720`.
-fn size(text: &str) -> Result<(u32, u32), String> {
-    let wrong =
-        || format!("found \"{text}\", a size is columns x rows from 16 to 16384, such as 1280x720");
-    let (width, height) = text.split_once(['x', '×']).ok_or_else(wrong)?;
-    let number = |text: &str| {
-        text.trim()
-            .parse()
-            .ok()
-            .filter(|px| (16..=16_384).contains(px))
-    };
-    Ok((
-        number(width).ok_or_else(wrong)?,
-        number(height).ok_or_else(wrong)?,
-    ))
 }
 
 /// What is there before anything is measured.

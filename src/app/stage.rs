@@ -1,12 +1,15 @@
-//! The middle of the browser: the pictures, both in one place, under one zoom.
+//! The middle of the stimulus browser and of the cost panel: pictures in one place, under one zoom.
+
+pub mod view;
 
 use eframe::egui::{
-    Color32, CursorIcon, Mesh, Painter, Pos2, Rect, Response, Sense, Stroke, TextureHandle, Ui,
-    Vec2, pos2, vec2,
+    Color32, ColorImage, Context, CursorIcon, Mesh, Painter, Pos2, Rect, Response, Sense, Stroke,
+    TextureFilter, TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2,
 };
 
-use super::view::{self, View};
-use crate::app::{stimulus_view, theme};
+use self::view::View;
+use super::{stimulus_view, theme};
+use crate::stimulus::manifest::Picture;
 
 /// What is painted.
 pub enum Content<'a> {
@@ -148,15 +151,32 @@ fn paint(painter: &Painter, texture: &TextureHandle, place: Rect, clip: Rect) {
 
 /// A note in the middle of the stage, with a spinner while something is being made.
 pub fn note(ui: &mut Ui, text: &str, busy: bool) {
+    with_note(ui, |ui| {
+        if busy {
+            ui.spinner();
+        }
+        ui.label(text);
+    });
+}
+
+/// A stage without a picture, with something in its middle.
+pub fn with_note(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
     let (rect, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     paint_stage(ui.painter(), rect);
     let column = Rect::from_center_size(rect.center(), vec2(rect.width().min(560.0), 120.0));
     ui.scope_builder(eframe::egui::UiBuilder::new().max_rect(column), |ui| {
-        ui.vertical_centered(|ui| {
-            if busy {
-                ui.spinner();
-            }
-            ui.label(text);
-        });
+        ui.vertical_centered(add);
     });
+}
+
+/// A texture that shows every pixel when magnified, and averages when made smaller.
+pub fn upload(ctx: &Context, name: &str, picture: &Picture) -> TextureHandle {
+    let size = [picture.width_px as usize, picture.height_px as usize];
+    let image = ColorImage::from_rgba_unmultiplied(size, &picture.rgba8);
+    let options = TextureOptions {
+        magnification: TextureFilter::Nearest,
+        minification: TextureFilter::Linear,
+        ..TextureOptions::NEAREST
+    };
+    ctx.load_texture(name, image, options)
 }
