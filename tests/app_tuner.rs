@@ -2,6 +2,8 @@
 //! and becomes a stimulus pair that draws the same.
 #![allow(clippy::expect_used, clippy::unwrap_used)] // a test ends where something is missing
 
+mod wall;
+
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -15,26 +17,10 @@ use greyfield::render::{Gpu, Renderer};
 use greyfield::scene::SceneConfig;
 use greyfield::stimulus::StimulusSet;
 
-/// A wall of 1 m on a floor of 20 × 20 m.
-const MODEL: &str = "
-v -10 0 10\nv 10 0 10\nv 10 0 -10\nv -10 0 -10
-v -10 0 0\nv 10 0 0\nv 10 1 0\nv -10 1 0
-f 1 2 3 4\nf 5 6 7 8
-";
+use wall::{SCENE, Wall};
 
-const SCENE: &str = r#"
-title = "A wall"
-
-[geometry]
-file = "wall.obj"
-
-[camera]
-position_m = [0, 1.5, 4]
-target_m = [0, 0.5, 0]
-vertical_fov_deg = 40
-near_m = 0.1
-far_m = 50
-
+/// The wall in two lights.
+const MORE: &str = r#"
 [occlusion]
 blur_radius_px = 2
 
@@ -44,29 +30,27 @@ radius_m = 1
 [lighting.dim]
 ambient = { constant = [0.4, 0.4, 0.4] }
 background = { colour = [1, 1, 1] }
-
-[lighting.low]
-ambient = { constant = [1, 1, 1] }
-background = { colour = [1, 1, 1] }
 "#;
+
+fn scene() -> String {
+    format!("{SCENE}{MORE}")
+}
 
 const SIZE_PX: (u32, u32) = (64, 36);
 
 struct Tuned {
     harness: Harness<'static, Option<Tuner>>,
-    folder: tempfile::TempDir,
+    wall: Wall,
 }
 
 impl Tuned {
     fn new() -> Self {
-        Self::at(SCENE)
+        Self::at(&scene())
     }
 
     fn at(scene: &str) -> Self {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let path = folder.path().join("wall.toml");
-        std::fs::write(&path, scene).expect("the scene is written");
-        std::fs::write(folder.path().join("wall.obj"), MODEL).expect("the model is written");
+        let wall = Wall::new(scene, &[]);
+        let path = wall.path("wall.toml");
         let scene = SceneConfig::load(&path).expect("the scene parses");
         let wishes = Wishes {
             lighting: Some(String::from("low")),
@@ -94,7 +78,7 @@ impl Tuned {
                 },
                 None,
             );
-        let mut tuned = Self { harness, folder };
+        let mut tuned = Self { harness, wall };
         tuned.frames(2);
         tuned
     }
@@ -161,7 +145,7 @@ impl Tuned {
     }
 
     fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
+        self.wall.path(name)
     }
 
     /// A and B: 18 samples and more at another light's sliders.
@@ -317,7 +301,7 @@ fn another_light_or_truth_measures_the_pins_again() {
 
 #[test]
 fn a_scene_without_a_surface_in_view_is_said_in_place() {
-    let away = SCENE.replace("target_m = [0, 0.5, 0]", "target_m = [0, 9, 9]");
+    let away = scene().replace("target_m = [0, 0.5, 0]", "target_m = [0, 9, 9]");
     let mut tuned = Tuned::at(&away);
     let deadline = Instant::now() + Duration::from_secs(60);
     while tuned
@@ -334,25 +318,15 @@ fn a_scene_without_a_surface_in_view_is_said_in_place() {
 
 #[test]
 fn wrong_input_ends_before_there_is_a_window() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let scene = folder.path().join("wall.toml");
-    std::fs::write(&scene, SCENE).expect("the scene is written");
-    std::fs::write(folder.path().join("wall.obj"), MODEL).expect("the model is written");
-    let broken = folder.path().join("broken.toml");
-    std::fs::write(&broken, "title = ").expect("a file is written");
-    let run = |path: &Path, more: &[&str]| {
-        let output = std::process::Command::new(env!("CARGO_BIN_EXE_greyfield"))
-            .arg("tune")
-            .arg(path)
-            .args(more)
-            .output()
-            .expect("it runs");
+    let wall = Wall::new(&scene(), &[("broken.toml", "title = ")]);
+    let run = |file: &str, more: &[&str]| {
+        let output = wall.run(&[&["tune", file], more].concat());
         let message = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(2), "{message}");
         message
     };
-    assert!(run(&broken, &[]).contains("broken.toml"));
-    assert!(run(&scene, &["--lighting", "dusk"]).contains("dim, low"));
-    assert!(run(&scene, &["--radius", "0"]).contains("radius"));
-    assert!(run(&scene, &["--size", "12"]).contains("1280x720"));
+    assert!(run("broken.toml", &[]).contains("broken.toml"));
+    assert!(run("wall.toml", &["--lighting", "dusk"]).contains("dim, low"));
+    assert!(run("wall.toml", &["--radius", "0"]).contains("radius"));
+    assert!(run("wall.toml", &["--size", "12"]).contains("1280x720"));
 }

@@ -1,41 +1,21 @@
 //! What accuracy costs, through the binary: `greyfield cost` and `greyfield advise`.
 #![allow(clippy::unwrap_used)]
 
-use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
+mod wall;
+
+use std::process::{Output, Stdio};
 use std::time::{Duration, Instant};
 
 use greyfield::cost::{Row, Store};
 use greyfield::render::Clock;
 use greyfield::stimulus::StimulusSet;
 
-/// A wall of 1 m on a floor of 20 × 20 m.
-const MODEL: &str = "
-v -10 0 10\nv 10 0 10\nv 10 0 -10\nv -10 0 -10
-v -10 0 0\nv 10 0 0\nv 10 1 0\nv -10 1 0
-f 1 2 3 4\nf 5 6 7 8
-";
+use wall::{SCENE, Wall};
 
-const SCENE: &str = r#"
-title = "A wall"
-
-[geometry]
-file = "wall.obj"
-
-[camera]
-position_m = [0, 1.5, 4]
-target_m = [0, 0.5, 0]
-vertical_fov_deg = 40
-near_m = 0.1
-far_m = 50
-
-[technique.gtao]
-radius_m = 1.0
-
-[lighting.low]
-ambient = { constant = [1, 1, 1] }
-background = { colour = [1, 1, 1] }
-"#;
+/// The wall, with a reach for what is measured.
+fn scene() -> String {
+    format!("{SCENE}\n[technique.gtao]\nradius_m = 1.0\n")
+}
 
 const SET: &str = r#"
 id = "walls"
@@ -67,36 +47,11 @@ const QUICK: [&str; 10] = [
     "64x48",
 ];
 
-struct Study {
-    dir: tempfile::TempDir,
-}
+struct Study(Wall);
 
 impl Study {
     fn new() -> Self {
-        let dir = tempfile::tempdir().unwrap();
-        let study = Self { dir };
-        for (name, text) in [("wall.obj", MODEL), ("wall.toml", SCENE), ("set.toml", SET)] {
-            study.write(name, text);
-        }
-        study
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        std::fs::write(self.path(name), text).unwrap();
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.dir.path().join(name)
-    }
-
-    fn command(&self, args: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_greyfield"));
-        command.args(args).current_dir(self.dir.path());
-        command
-    }
-
-    fn run(&self, args: &[&str]) -> Output {
-        self.command(args).output().unwrap()
+        Self(Wall::new(&scene(), &[("set.toml", SET)]))
     }
 
     fn cost(&self, more: &[&str]) -> Output {
@@ -106,6 +61,14 @@ impl Study {
 
     fn rows(&self, folder: &str) -> Vec<Row> {
         Store::load(&self.path(folder)).unwrap().unwrap().rows
+    }
+}
+
+impl std::ops::Deref for Study {
+    type Target = Wall;
+
+    fn deref(&self) -> &Wall {
+        &self.0
     }
 }
 
@@ -231,7 +194,7 @@ fn a_folder_of_another_sweep_is_refused_and_stays() {
     );
     study.write(
         "wall.toml",
-        &SCENE.replace("vertical_fov_deg = 40", "vertical_fov_deg = 50"),
+        &scene().replace("vertical_fov_deg = 40", "vertical_fov_deg = 50"),
     );
     refused(&study.cost(&args), &["scene wall has changed"]);
     assert_eq!(study.rows("out"), before);
@@ -315,7 +278,7 @@ fn what_cannot_be_measured_is_said_in_one_message() {
     );
     study.write(
         "wall.toml",
-        &SCENE
+        &scene()
             .replace("position_m = [0, 1.5, 4]", "position_m = [0, 900, 4]")
             .replace("target_m = [0, 0.5, 0]", "target_m = [0, 990, 0]"),
     );

@@ -1,33 +1,12 @@
 //! The truth through the binary: `greyfield truth`, and `ray-traced` as a technique of a set.
 #![allow(clippy::unwrap_used)]
 
+mod wall;
+
 use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::Output;
 
-/// A wall of 1 m on a floor of 20 × 20 m.
-const MODEL: &str = "
-v -10 0 10\nv 10 0 10\nv 10 0 -10\nv -10 0 -10
-v -10 0 0\nv 10 0 0\nv 10 1 0\nv -10 1 0
-f 1 2 3 4\nf 5 6 7 8
-";
-
-const SCENE: &str = r#"
-title = "A wall"
-
-[geometry]
-file = "wall.obj"
-
-[camera]
-position_m = [0, 1.5, 4]
-target_m = [0, 0.5, 0]
-vertical_fov_deg = 40
-near_m = 0.1
-far_m = 50
-
-[lighting.low]
-ambient = { constant = [1, 1, 1] }
-background = { colour = [1, 1, 1] }
-"#;
+use wall::{SCENE, Wall};
 
 const SET: &str = r#"
 id = "walls"
@@ -45,29 +24,19 @@ first = "gtao18"
 second = { technique = "ray-traced", error = 0.01 }
 "#;
 
-struct Study {
-    dir: tempfile::TempDir,
-}
+struct Study(Wall);
 
 impl Study {
     fn new() -> Self {
-        let dir = tempfile::tempdir().unwrap();
-        for (name, text) in [("wall.obj", MODEL), ("wall.toml", SCENE), ("set.toml", SET)] {
-            std::fs::write(dir.path().join(name), text).unwrap();
-        }
-        Self { dir }
+        Self(Wall::new(SCENE, &[("set.toml", SET)]))
     }
 
     fn path(&self, name: &str) -> PathBuf {
-        self.dir.path().join(name)
+        self.0.path(name)
     }
 
     fn greyfield(&self, args: &[&str]) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_greyfield"))
-            .current_dir(self.dir.path())
-            .args(args)
-            .output()
-            .unwrap()
+        self.0.run(args)
     }
 
     fn succeed(&self, args: &[&str]) {
@@ -204,10 +173,10 @@ fn ray_traced_stimuli_are_the_same_every_time() {
         })
     };
     study.succeed(&["render", "set.toml", "--out", "first"]);
-    let second = Command::new(env!("CARGO_BIN_EXE_greyfield"))
-        .current_dir(study.dir.path())
+    let second = study
+        .0
+        .command(&["render", "set.toml", "--out", "second"])
         .env("RAYON_NUM_THREADS", "1")
-        .args(["render", "set.toml", "--out", "second"])
         .output()
         .unwrap();
     assert!(second.status.success());

@@ -2,6 +2,7 @@
 
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::Context;
 
@@ -18,6 +19,41 @@ pub fn write(file: Option<&Path>, bytes: &[u8]) -> anyhow::Result<()> {
     match io::stdout().lock().write_all(bytes) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         other => other.context("standard output cannot be written"),
+    }
+}
+
+/// Says on a bar how much of an image of rays is done: it takes minutes, and is a step of the bar
+/// alone.
+pub struct TracedShare<'a> {
+    bar: &'a indicatif::ProgressBar,
+    image_px: u64,
+    done_px: AtomicU64,
+}
+
+impl<'a> TracedShare<'a> {
+    /// For images of this size, pixels.
+    #[must_use]
+    pub fn new(bar: &'a indicatif::ProgressBar, (width_px, height_px): (u32, u32)) -> Self {
+        Self {
+            bar,
+            image_px: u64::from(width_px) * u64::from(height_px),
+            done_px: AtomicU64::new(0),
+        }
+    }
+
+    /// Another step begins.
+    pub fn begin(&self) {
+        self.done_px.store(0, Ordering::Relaxed);
+        self.bar.set_prefix("");
+    }
+
+    /// So many more pixels are done.
+    pub fn add(&self, count: u64) {
+        let done = self.done_px.fetch_add(count, Ordering::Relaxed) + count;
+        self.bar.set_prefix(match done < self.image_px {
+            true => format!("traced {} % ", 100 * done / self.image_px),
+            false => String::new(),
+        });
     }
 }
 

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use clap::Args;
 
+use super::output::TracedShare;
 use super::{Failure, Verbosity};
 use crate::render::plan::GeometryFacts;
 use crate::render::{Gpu, Precision, Renderer};
@@ -132,31 +132,21 @@ pub fn draw(
     verbosity: Verbosity,
 ) -> Result<Drawn, Failure> {
     let watch = Mutex::new(StopWatch::new());
-    let traced = AtomicU64::new(0);
-    let (width_px, height_px) = set.size_px.unwrap_or_default();
-    let image_px = u64::from(width_px) * u64::from(height_px);
     let steps = 1 + set.scenes.len() + 2 * set.conditions.len();
     let bar = verbosity.progress(steps as u64);
+    let traced = TracedShare::new(&bar, set.size_px.unwrap_or_default());
     let open = || Ok(Renderer::new(Gpu::open(adapter)?));
     let step = |what: &str| {
         if let Ok(mut watch) = watch.lock() {
             watch.step(what);
         }
-        traced.store(0, Ordering::Relaxed);
+        traced.begin();
         bar.set_message(what.to_owned());
         bar.inc(1);
     };
-    // An image of rays takes minutes, a step of the bar alone: it counts its own pixels.
-    let pixels = |count| {
-        let done = traced.fetch_add(count, Ordering::Relaxed) + count;
-        bar.set_prefix(match done < image_px {
-            true => format!("traced {} % ", 100 * done / image_px),
-            false => String::new(),
-        });
-    };
     let progress = Progress {
         step: &step,
-        pixels: &pixels,
+        pixels: &|count| traced.add(count),
     };
     let produced =
         produce::produce(&open, set, folders, only, &progress).map_err(|error| match error {

@@ -17,8 +17,8 @@ pub struct Measured {
     /// Of its occlusion against the best answer that the depth buffer allows, at some of the
     /// pixels: what a better estimator would not get wrong.
     pub estimator_error: OcclusionError,
-    /// Of that answer against the truth: what no technique that looks at the depth buffer alone
-    /// can know.
+    /// Of that answer against the truth: what the depth buffer does not tell. No strict floor, as
+    /// errors of two kinds may cancel.
     pub information_loss: OcclusionError,
     /// Its occlusion, 0 closed to 1 open.
     pub occlusion: Arc<FloatImage>,

@@ -74,3 +74,32 @@ pub fn pair(name: &str) -> [Picture; 2] {
         other => panic!("no pair {other}"),
     }
 }
+
+/// Holds a map of a pair against a table of somebody else's numbers: lines of what `lead` columns
+/// say of the pair, then `mean` or `pixel`, column, row and the value. How many lines there were, and
+/// the largest difference with its line.
+pub fn against<'t>(
+    table: &'t str,
+    lead: usize,
+    mut map: impl FnMut(&[&str]) -> (f64, Vec<f32>),
+) -> (usize, (f64, &'t str)) {
+    let mut worst = (0.0, "");
+    let mut rows = 0;
+    for line in table.lines().skip(1) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let (mean, values) = map(&cells[..lead]);
+        let ours = match cells[lead] {
+            "mean" => mean,
+            _ => {
+                let [x, y] = [1, 2].map(|next| cells[lead + next].parse::<usize>().unwrap());
+                f64::from(values[y * WIDTH_PX as usize + x])
+            }
+        };
+        let error = (ours - cells[lead + 3].parse::<f64>().unwrap()).abs();
+        if error.is_nan() || error > worst.0 {
+            worst = (error, line);
+        }
+        rows += 1;
+    }
+    (rows, worst)
+}

@@ -3,6 +3,7 @@
 use super::pictures::Pictures;
 use super::{Opened, PicturesArg, SweepArgs};
 use crate::cli::Verbosity;
+use crate::cli::output::TracedShare;
 use crate::cost::sweep::{self, SceneSweep, Watch};
 use crate::cost::{Configuration, CostError, Measured, SceneBench};
 use crate::stimulus::progress::Progress;
@@ -20,12 +21,16 @@ pub fn measure(
     let store = &mut opened.store;
     let of_sweep = |sweep: &SceneSweep| -> u64 { sweep.left(store).map(SceneSweep::weight).sum() };
     let bar = verbosity.progress(opened.asked.sweeps.iter().map(of_sweep).sum());
+    let traced = TracedShare::new(&bar, store.record.about.size_px);
     let pictures = Pictures::new(pictures, store)?;
     let watcher = Watcher {
         bar: &bar,
         progress: Progress {
-            step: &|what| bar.set_message(what.to_owned()),
-            pixels: &|_| {},
+            step: &|what| {
+                traced.begin();
+                bar.set_message(what.to_owned());
+            },
+            pixels: &|count| traced.add(count),
         },
         pictures,
     };

@@ -148,7 +148,7 @@ pub fn flip(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stimulus::test_pictures::{WIDTH_PX, flat, pair};
+    use crate::stimulus::test_pictures::{against, flat, pair};
     use proptest::prelude::*;
 
     fn map(values: &[f32]) -> FlipMap {
@@ -163,27 +163,12 @@ mod tests {
     /// `tests/data/flip.py`.
     #[test]
     fn it_agrees_with_nvidias_own() {
-        let mut worst = (0.0, "");
-        let mut rows = 0;
-        for line in include_str!("../../../tests/data/flip.csv").lines().skip(1) {
-            let cells: Vec<&str> = line.split(',').collect();
-            let [reference, test] = pair(cells[0]);
-            let found = flip(&reference, &test, cells[1].parse().unwrap()).unwrap();
-            let expected: f64 = cells[5].parse().unwrap();
-            let ours = match cells[2] {
-                "mean" => found.mean(),
-                _ => {
-                    let [x, y] = [3, 4].map(|i| cells[i].parse::<usize>().unwrap());
-                    f64::from(found.values[y * WIDTH_PX as usize + x])
-                }
-            };
-            let error = (ours - expected).abs();
-            if error.is_nan() || error > worst.0 {
-                worst = (error, line);
-            }
-            rows += 1;
-        }
-        println!("{worst:?}");
+        let table = include_str!("../../../tests/data/flip.csv");
+        let (rows, worst) = against(table, 2, |lead| {
+            let [reference, test] = pair(lead[0]);
+            let found = flip(&reference, &test, lead[1].parse().unwrap()).unwrap();
+            (found.mean(), found.values)
+        });
         assert_eq!(rows, 108);
         assert!(worst.0 < 1e-4, "{worst:?}");
     }
