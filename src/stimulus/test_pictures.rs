@@ -78,11 +78,11 @@ pub fn pair(name: &str) -> [Picture; 2] {
 /// Holds a map of a pair against a table of somebody else's numbers: lines of what `lead` columns
 /// say of the pair, then `mean` or `pixel`, column, row and the value. How many lines there were, and
 /// the largest difference with its line.
-pub fn against<'t>(
-    table: &'t str,
+pub fn against(
+    table: &str,
     lead: usize,
     mut map: impl FnMut(&[&str]) -> (f64, Vec<f32>),
-) -> (usize, (f64, &'t str)) {
+) -> (usize, (f64, &str)) {
     let mut worst = (0.0, "");
     let mut rows = 0;
     for line in table.lines().skip(1) {

@@ -1,6 +1,6 @@
 //! A wall of 1 m on a floor of 20 × 20 m, as a scene in a folder of its own, and the program run
 //! there.
-#![allow(dead_code)] // each test uses a part of it
+#![allow(dead_code, clippy::expect_used)] // each test uses a part; it ends where something is missing
 
 use std::path::PathBuf;
 use std::process::{Command, Output};

@@ -36,7 +36,7 @@ pub struct SweepArgs {
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     lighting: Option<Vec<String>>,
     /// Distance from which on nothing occludes, metres [default: as far as the scene lets gtao look].
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
     radius: Option<f64>,
     /// Size of the images, pixels [default: the set's, or 1280x720].
     #[arg(long, value_name = "WxH", value_parser = size::size)]
