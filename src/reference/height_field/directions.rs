@@ -5,8 +5,8 @@ use std::f32::consts::TAU;
 use glam::Vec3;
 use rand_chacha::rand_core::Rng;
 
-use crate::reference::sobol::{Scramble, Sobol};
 use crate::reference::Weighting;
+use crate::reference::sobol::{Scramble, Sobol, mix};
 use crate::seed;
 
 /// How many patterns there are: neighbours rarely have the same, and all fit into a cache.
@@ -43,7 +43,7 @@ impl Directions {
 
     /// The pattern of a texel, and the sine and cosine of how far it is turned.
     fn of(&self, texel: usize) -> (&[Vec3], (f32, f32)) {
-        let bits = seed::mix(self.base ^ texel as u64);
+        let bits = mix(self.base ^ texel as u64);
         let pattern = bits as usize % PATTERNS;
         let turn = (bits >> 40) as f32 / (1_u64 << 24) as f32;
         (

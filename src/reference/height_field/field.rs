@@ -198,7 +198,10 @@ fn highest_of_blocks(padded: &[f32], (width, height): (usize, usize), stride: us
     let along_rows: Vec<f32> = (0..rows * width)
         .map(|at| {
             let from = at / width * stride + at % width;
-            padded[from..=from + BLOCK].iter().copied().fold(f32::MIN, f32::max)
+            padded[from..=from + BLOCK]
+                .iter()
+                .copied()
+                .fold(f32::MIN, f32::max)
         })
         .collect();
     (0..height * width)

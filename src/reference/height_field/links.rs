@@ -28,19 +28,28 @@ pub struct LinkSettings {
 pub struct Links {
     directions: Directions,
     rays: usize,
+    texels: usize,
+    kept: Kept,
+}
+
+/// Whether links are kept or found again for every bounce.
+#[derive(Debug)]
+enum Kept {
     /// Texel by texel, ray by ray: the texel met, or [`SKY`].
-    met: Vec<u32>,
+    All(Vec<u32>),
+    /// Nothing but the field.
+    None(HeightField),
 }
 
 impl Links {
-    /// Bytes that the links of a field need.
+    /// Bytes that the links of a field need where they are kept.
     #[must_use]
     pub fn bytes(texels: usize, rays: usize) -> u64 {
         4 * texels as u64 * rays as u64
     }
 
-    /// Casts the rays of every texel over its whole hemisphere. `progress` is told how many
-    /// texels are newly done.
+    /// Casts the rays of every texel over its whole hemisphere, and keeps where they end.
+    /// `progress` is told how many texels are newly done.
     #[must_use]
     pub fn cast(
         field: &HeightField,
@@ -62,7 +71,21 @@ impl Links {
         Self {
             directions,
             rays,
-            met,
+            texels: field.len(),
+            kept: Kept::All(met),
+        }
+    }
+
+    /// The same links, cast again whenever they are asked for: no memory, and as many times the
+    /// work as there are bounces.
+    #[must_use]
+    pub fn recast(field: &HeightField, settings: &LinkSettings) -> Self {
+        let rays = settings.rays.next_power_of_two();
+        Self {
+            directions: Directions::new(rays, settings.seed),
+            rays,
+            texels: field.len(),
+            kept: Kept::None(field.clone()),
         }
     }
 
@@ -75,40 +98,48 @@ impl Links {
     /// Number of texels.
     #[must_use]
     pub fn texels(&self) -> usize {
-        self.met.len() / self.rays
+        self.texels
     }
 
-    /// The uniform occlusion of a texel: the share of its rays that meet nothing (the notes' α,
-    /// 0 closed to 1 open).
-    #[must_use]
-    pub fn openness(&self, texel: usize) -> f32 {
-        let free = self.of(texel).iter().filter(|met| **met == SKY).count();
-        free as f32 / self.rays as f32
-    }
-
-    /// The direct irradiance of a texel under a sky of unit radiance, 0 to about π:
+    /// The uniform openness of a texel, the share of its rays that meet nothing (the notes' α, 0
+    /// closed to 1 open), and its direct irradiance under a sky of unit radiance, 0 to about π:
     /// (2π/N) Σ_free cosθ.
     #[must_use]
-    pub fn direct(&self, texel: usize) -> f32 {
-        let rays = self.of(texel).iter().zip(self.directions.cosines(texel));
-        let free = rays.filter(|(met, _)| **met == SKY).map(|(_, cosine)| cosine);
-        std::f32::consts::TAU * free.sum::<f32>() / self.rays as f32
+    pub fn sky(&self, texel: usize) -> (f32, f32) {
+        self.with(texel, |met| {
+            let rays = met.iter().zip(self.directions.cosines(texel));
+            let free = rays.filter(|(met, _)| **met == SKY);
+            let (count, sum) = free.fold((0_u32, 0.0_f32), |(count, sum), (_, cosine)| {
+                (count + 1, sum + cosine)
+            });
+            let rays = self.rays as f32;
+            (count as f32 / rays, std::f32::consts::TAU * sum / rays)
+        })
     }
 
     /// Gathers what a texel's neighbours send along its links: (2/N) Σ_blocked sent(x′) cosθ, with
     /// `sent` the irradiance times the albedo.
     #[must_use]
     pub fn gathered(&self, texel: usize, sent: &[f32]) -> f32 {
-        let rays = self.of(texel).iter().zip(self.directions.cosines(texel));
-        let sum: f32 = rays
-            .filter(|(met, _)| **met != SKY)
-            .map(|(met, cosine)| sent[*met as usize] * cosine)
-            .sum();
-        2.0 * sum / self.rays as f32
+        self.with(texel, |met| {
+            let rays = met.iter().zip(self.directions.cosines(texel));
+            let blocked = rays.filter(|(met, _)| **met != SKY);
+            let sum: f32 = blocked
+                .map(|(met, cosine)| sent[*met as usize] * cosine)
+                .sum();
+            2.0 * sum / self.rays as f32
+        })
     }
 
-    fn of(&self, texel: usize) -> &[u32] {
-        &self.met[texel * self.rays..(texel + 1) * self.rays]
+    fn with<T>(&self, texel: usize, read: impl FnOnce(&[u32]) -> T) -> T {
+        match &self.kept {
+            Kept::All(met) => read(&met[texel * self.rays..(texel + 1) * self.rays]),
+            Kept::None(field) => {
+                let mut met = vec![SKY; self.rays];
+                cast_one(field, &self.directions, texel, &mut met);
+                read(&met)
+            }
+        }
     }
 }
 

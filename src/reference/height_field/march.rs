@@ -91,14 +91,21 @@ impl Ray<'_> {
             return f32::INFINITY;
         }
         let of = |from: i64, size: usize, step: f32| {
-            let border = if step > 0.0 { size as i64 - 1 - from } else { -from };
+            let border = if step > 0.0 {
+                size as i64 - 1 - from
+            } else {
+                -from
+            };
             match step == 0.0 {
                 true => f32::INFINITY,
                 false => border as f32 / step,
             }
         };
-        of(self.column, self.field.width(), self.direction.x)
-            .min(of(self.row, self.field.height(), self.direction.y))
+        of(self.column, self.field.width(), self.direction.x).min(of(
+            self.row,
+            self.field.height(),
+            self.direction.y,
+        ))
     }
 
     /// The distance at which the field of a block is first met, between two others.
@@ -145,7 +152,10 @@ impl Ray<'_> {
             }
         };
         let (width, height) = (self.field.width(), self.field.height());
-        let (x, y) = (of(self.column, place.x, width), of(self.row, place.y, height));
+        let (x, y) = (
+            of(self.column, place.x, width),
+            of(self.row, place.y, height),
+        );
         // A field has no more texels than a link can count.
         Met::Texel((y * width as i64 + x) as u32)
     }

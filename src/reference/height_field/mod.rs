@@ -7,18 +7,23 @@
 //! ```text
 //! field       heights, normals, border     march      where a ray meets the field
 //! directions  the rays of a texel          links      what each ray has met
-//! transport   bounce after bounce          procedural heights to try it on
+//! transport   bounce after bounce          curves     irradiance over openness
+//! source      heights from files           procedural heights that need none
 //! ```
 
+mod curves;
 mod directions;
 mod field;
 mod links;
 mod march;
 pub mod procedural;
+mod source;
 mod transport;
 
+pub use curves::{CurvePoint, curves};
 pub use field::{Border, HeightField, HeightFieldError};
 pub use links::{LinkSettings, Links};
+pub use source::{HeightMap, HeightMapError};
 pub use transport::{Bounces, Stopped, TransportSettings};
 
 #[cfg(test)]

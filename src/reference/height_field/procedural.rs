@@ -134,7 +134,10 @@ fn bricks(size: usize, seed: u64) -> Vec<f32> {
         let brick = (along.floor() as i64).rem_euclid(COLUMNS as i64);
         let within = Vec2::new(along.fract(), (place.y * COURSES).fract());
         // Distance to the edge, in heights of a course; a brick is twice as long as high.
-        let edge = Vec2::new(2.0 * (0.5 - (within.x - 0.5).abs()), 0.5 - (within.y - 0.5).abs());
+        let edge = Vec2::new(
+            2.0 * (0.5 - (within.x - 0.5).abs()),
+            0.5 - (within.y - 0.5).abs(),
+        );
         let rise = smooth(0.06, 0.16, edge.min_element());
         rise * (0.85 + 0.15 * of_cell(seed, brick, course as i64))
     });
@@ -150,16 +153,23 @@ fn pebbles(size: usize, seed: u64) -> Vec<f32> {
         .map(|stone| {
             let centre = Vec2::new(unit_f32(&mut rng), unit_f32(&mut rng));
             // Large ones first, small ones in what they leave.
-            let radius = 0.09 * (1.0 - 0.75 * (stone as f32 / 260.0)) * (0.8 + 0.4 * unit_f32(&mut rng));
+            let radius =
+                0.09 * (1.0 - 0.75 * (stone as f32 / 260.0)) * (0.8 + 0.4 * unit_f32(&mut rng));
             (centre, radius, 0.7 + 0.6 * unit_f32(&mut rng))
         })
         .collect();
     normalised(everywhere(size, |place| {
-        stones.iter().fold(0.0_f32, |height, (centre, radius, flat)| {
-            let apart = (place - centre + 0.5).fract_gl() - 0.5;
-            let inside = 1.0 - apart.length_squared() / (radius * radius);
-            height.max(if inside > 0.0 { flat * radius * inside.sqrt() } else { 0.0 })
-        })
+        stones
+            .iter()
+            .fold(0.0_f32, |height, (centre, radius, flat)| {
+                let apart = (place - centre + 0.5).fract_gl() - 0.5;
+                let inside = 1.0 - apart.length_squared() / (radius * radius);
+                height.max(if inside > 0.0 {
+                    flat * radius * inside.sqrt()
+                } else {
+                    0.0
+                })
+            })
     }))
 }
 
@@ -178,7 +188,13 @@ fn concrete(size: usize, seed: u64) -> Vec<f32> {
             depth.max(1.0 - smooth(0.7 * radius, *radius, apart.length()))
         })
     });
-    normalised(ground.iter().zip(depth).map(|(ground, depth)| 0.3 * ground - depth).collect())
+    normalised(
+        ground
+            .iter()
+            .zip(depth)
+            .map(|(ground, depth)| 0.3 * ground - depth)
+            .collect(),
+    )
 }
 
 fn crevices(size: usize, seed: u64) -> Vec<f32> {
@@ -218,10 +234,16 @@ fn bowls(size: usize, _: u64) -> Vec<f32> {
 fn shapes(size: usize, _: u64) -> Vec<f32> {
     normalised(everywhere(size, |place| {
         let at = |x: f32, y: f32| place - Vec2::new(x, y);
-        let cube = if at(0.25, 0.25).abs().max_element() < 0.12 { 0.24 } else { 0.0 };
+        let cube: f32 = if at(0.25, 0.25).abs().max_element() < 0.12 {
+            0.24
+        } else {
+            0.0
+        };
         let pyramid = 0.24 * (1.0 - at(0.75, 0.25).abs().max_element() / 0.15).max(0.0);
         let cone = 0.24 * (1.0 - at(0.25, 0.75).length() / 0.15).max(0.0);
-        let dome = (0.15_f32.powi(2) - at(0.75, 0.75).length_squared()).max(0.0).sqrt();
+        let dome = (0.15_f32.powi(2) - at(0.75, 0.75).length_squared())
+            .max(0.0)
+            .sqrt();
         cube.max(pyramid).max(cone).max(dome)
     }))
 }

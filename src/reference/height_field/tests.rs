@@ -18,7 +18,10 @@ fn field(size: usize, border: Border, height: impl Fn(f32, f32) -> f32) -> Heigh
 
 fn map(name: &str, size: usize, amplitude: f32) -> HeightField {
     let heights = (procedural::find(name).unwrap().heights)(size, 7);
-    let heights: Vec<f32> = heights.iter().map(|h| amplitude * size as f32 * h).collect();
+    let heights: Vec<f32> = heights
+        .iter()
+        .map(|h| amplitude * size as f32 * h)
+        .collect();
     HeightField::new((size, size), &heights, Border::Tiled).unwrap()
 }
 
@@ -31,9 +34,10 @@ fn an_even_plane_sees_the_whole_sky() {
     let plane = field(40, Border::Tiled, |_, _| 3.0);
     let links = Links::cast(&plane, &LINKS, &|_| {});
     for texel in 0..plane.len() {
-        assert_eq!(links.openness(texel), 1.0);
+        let (openness, direct) = links.sky(texel);
+        assert_eq!(openness, 1.0);
         // The heights of a net of 256 points average to a half within 1/512.
-        assert!((links.direct(texel) / PI - 1.0).abs() < 1.0 / 256.0);
+        assert!((direct / PI - 1.0).abs() < 1.0 / 256.0);
     }
     let bounces = Bounces::follow(&links, &white(plane.len()), &TransportSettings::default());
     assert_eq!(bounces.stopped, Stopped::Dark);
@@ -47,11 +51,21 @@ fn rays_meet_what_is_there() {
     let step = field(64, Border::Open, |x, _| if x >= 20.0 { 10.0 } else { 0.0 });
     let meets = |x: usize, direction: Vec3| step.meets((x, 32), direction.normalize());
     // The wall's face leans from (19, 0) to (20, 10): at height 5 it stands at 19.5.
-    assert_eq!(meets(10, Vec3::new(9.5, 0.0, 4.9)), Met::Texel(32 * 64 + 19));
-    assert_eq!(meets(10, Vec3::new(9.5, 0.0, 5.5)), Met::Texel(32 * 64 + 20));
+    assert_eq!(
+        meets(10, Vec3::new(9.5, 0.0, 4.9)),
+        Met::Texel(32 * 64 + 19)
+    );
+    assert_eq!(
+        meets(10, Vec3::new(9.5, 0.0, 5.5)),
+        Met::Texel(32 * 64 + 20)
+    );
     assert_eq!(meets(10, Vec3::new(10.0, 0.0, 10.1)), Met::Sky);
     assert_eq!(meets(10, Vec3::new(-1.0, 0.0, 0.01)), Met::Sky);
-    assert_eq!(meets(30, Vec3::new(-1.0, 0.0, -0.001)), Met::Sky, "out over the edge");
+    assert_eq!(
+        meets(20, Vec3::new(-1.0, 0.0, -0.001)),
+        Met::Sky,
+        "out over the edge"
+    );
     assert_eq!(meets(10, Vec3::Z), Met::Sky);
 }
 
@@ -82,11 +96,9 @@ fn blocks_hide_nothing() {
 /// Whether a ray is blocked, and how near to the field it came, by steps of a twentieth of a texel.
 fn stepped(field: &HeightField, (x, y): (usize, usize), direction: Vec3) -> (bool, Option<f32>) {
     let size = field.width() as i64;
-    let at = |x: i64, y: i64| {
-        field.at(x.rem_euclid(size) as usize, y.rem_euclid(size) as usize)
-    };
+    let at = |x: i64, y: i64| field.at(x.rem_euclid(size) as usize, y.rem_euclid(size) as usize);
     let mut nearest = f32::INFINITY;
-    let mut t = 1.0_f32;
+    let mut t = 0.05_f32;
     loop {
         let p = Vec3::new(x as f32, y as f32, field.at(x, y)) + direction * t;
         if p.z > field.highest() {
@@ -95,7 +107,12 @@ fn stepped(field: &HeightField, (x, y): (usize, usize), direction: Vec3) -> (boo
         let (cx, cy) = (p.x.floor(), p.y.floor());
         let (u, v) = (p.x - cx, p.y - cy);
         let (cx, cy) = (cx as i64, cy as i64);
-        let (a, b, c, d) = (at(cx, cy), at(cx + 1, cy), at(cx, cy + 1), at(cx + 1, cy + 1));
+        let (a, b, c, d) = (
+            at(cx, cy),
+            at(cx + 1, cy),
+            at(cx, cy + 1),
+            at(cx + 1, cy + 1),
+        );
         let height = if u + v <= 1.0 {
             a + (b - a) * u + (c - a) * v
         } else {
@@ -105,7 +122,10 @@ fn stepped(field: &HeightField, (x, y): (usize, usize), direction: Vec3) -> (boo
         if above < -0.02 {
             return (true, Some(above.min(nearest)));
         }
-        nearest = nearest.min(above.abs());
+        // It starts on the field itself.
+        if t > 0.5 {
+            nearest = nearest.min(above.abs());
+        }
         t += 0.05;
     }
 }
@@ -114,7 +134,7 @@ fn stepped(field: &HeightField, (x, y): (usize, usize), direction: Vec3) -> (boo
 /// of it. In every texel the bounces sum to π, to the sampling error of its own rays.
 #[test]
 fn no_light_is_lost_at_full_albedo() {
-    for name in ["bricks", "fbm", "crevices"] {
+    for name in ["bricks", "fbm", "pebbles"] {
         let field = map(name, 64, 0.2);
         let links = Links::cast(&field, &LINKS, &|_| {});
         let settings = TransportSettings {
@@ -133,7 +153,7 @@ fn no_light_is_lost_at_full_albedo() {
 /// A hemispherical bowl is half an integrating sphere: E_i = π ½ (ρ/2)^i in every point.
 #[test]
 fn a_bowl_is_an_integrating_sphere() {
-    const RADIUS: f32 = 100.0;
+    const RADIUS: f32 = 60.0;
     let bowl = field(2 * RADIUS as usize + 21, Border::Open, |x, y| {
         let (x, y) = (x - RADIUS - 10.0, y - RADIUS - 10.0);
         -(RADIUS * RADIUS - x * x - y * y).max(0.0).sqrt()
@@ -158,7 +178,10 @@ fn a_bowl_is_an_integrating_sphere() {
             // Near the rim a texel covers much of the bowl's height.
             if apart < 0.8 * RADIUS {
                 let found = bounces.irradiance[bounce][texel];
-                assert!((found / expected - 1.0).abs() < 0.15, "{bounce} at {apart}: {found}");
+                assert!(
+                    (found / expected - 1.0).abs() < 0.15,
+                    "{bounce} at {apart}: {found}"
+                );
                 sum += found / expected;
                 count += 1;
             }
@@ -168,21 +191,51 @@ fn a_bowl_is_an_integrating_sphere() {
     }
 }
 
+/// Kept or cast again, links are the same.
+#[test]
+fn what_is_not_kept_is_found_again() {
+    let field = map("pebbles", 32, 0.2);
+    let albedo: Vec<f32> = (0..field.len())
+        .map(|texel| (texel % 7) as f32 / 7.0)
+        .collect();
+    let settings = TransportSettings::default();
+    let kept = Bounces::follow(&Links::cast(&field, &LINKS, &|_| {}), &albedo, &settings);
+    let again = Bounces::follow(&Links::recast(&field, &LINKS), &albedo, &settings);
+    assert_eq!(kept.irradiance, again.irradiance);
+    assert_eq!(kept.openness, again.openness);
+}
+
 #[test]
 fn heights_that_are_none_are_refused() {
     let new = |size, heights: &[f32]| HeightField::new(size, heights, Border::Tiled);
-    assert!(matches!(new((1, 1), &[0.0]), Err(HeightFieldError::Size { .. })));
-    assert!(matches!(new((2, 2), &[0.0; 3]), Err(HeightFieldError::Count { .. })));
+    assert!(matches!(
+        new((1, 1), &[0.0]),
+        Err(HeightFieldError::Size { .. })
+    ));
+    assert!(matches!(
+        new((2, 2), &[0.0; 3]),
+        Err(HeightFieldError::Count { .. })
+    ));
     let nan = [0.0, 0.0, 0.0, f32::NAN];
-    assert!(matches!(new((2, 2), &nan), Err(HeightFieldError::NotFinite { x: 1, y: 1, .. })));
+    assert!(matches!(
+        new((2, 2), &nan),
+        Err(HeightFieldError::NotFinite { x: 1, y: 1, .. })
+    ));
 }
 
 #[test]
 fn every_map_fills_its_range_and_is_the_same_every_time() {
     for map in procedural::MAPS {
         let heights = (map.heights)(64, 3);
-        let (low, high) = heights.iter().fold((1.0_f32, 0.0_f32), |(low, high), &h| (low.min(h), high.max(h)));
-        assert_eq!((heights.len(), low, high), (64 * 64, 0.0, 1.0), "{}", map.name);
+        let (low, high) = heights.iter().fold((1.0_f32, 0.0_f32), |(low, high), &h| {
+            (low.min(h), high.max(h))
+        });
+        assert_eq!(
+            (heights.len(), low, high),
+            (64 * 64, 0.0, 1.0),
+            "{}",
+            map.name
+        );
         assert_eq!(heights, (map.heights)(64, 3));
     }
 }

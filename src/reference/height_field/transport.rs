@@ -38,6 +38,8 @@ pub enum Stopped {
 /// Irradiance of every texel, bounce by bounce, for one colour channel.
 #[derive(Debug, Clone)]
 pub struct Bounces {
+    /// The uniform openness of every texel, 0 closed to 1 open.
+    pub openness: Vec<f32>,
     /// E₀, E₁, …, each of every texel.
     pub irradiance: Vec<Vec<f32>>,
     /// Why there are no more.
@@ -53,11 +55,12 @@ impl Bounces {
     #[must_use]
     pub fn follow(links: &Links, albedo: &[f32], settings: &TransportSettings) -> Self {
         assert_eq!(albedo.len(), links.texels(), "one albedo a texel");
-        let direct: Vec<f32> = (0..links.texels())
+        let (openness, direct): (Vec<f32>, Vec<f32>) = (0..links.texels())
             .into_par_iter()
-            .map(|texel| links.direct(texel))
-            .collect();
+            .map(|texel| links.sky(texel))
+            .unzip();
         let mut bounces = Self {
+            openness,
             irradiance: vec![direct],
             stopped: Stopped::Enough,
         };
