@@ -2,6 +2,7 @@
 
 mod advise;
 mod analyse;
+mod bounces;
 mod browse;
 mod check;
 mod cost;
@@ -42,6 +43,7 @@ enum Command {
     #[command(visible_alias = "import")]
     Render(render::RenderArgs),
     Truth(truth::Truth),
+    Bounces(bounces::BouncesArgs),
     Model(model::ModelArgs),
     Techniques(techniques::Techniques),
     Check(check::Check),
@@ -122,6 +124,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Demo(args) => demo::run(&args, verbosity),
         Command::Render(args) => render::run(&args, verbosity),
         Command::Truth(args) => truth::run(&args, verbosity),
+        Command::Bounces(args) => bounces::run(&args, verbosity),
         Command::Model(args) => model::run(&args, verbosity),
         Command::Techniques(args) => techniques::run(&args),
         Command::Check(args) => check::run(&args, verbosity),

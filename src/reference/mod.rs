@@ -8,6 +8,7 @@
 pub mod bvh;
 pub mod directions;
 mod error;
+pub mod height_field;
 mod occlusion;
 mod ray_traced;
 mod screen_space;
