@@ -102,7 +102,7 @@ fn advise(
     let Some(chosen) = chosen else {
         return Err(CostError::Input(String::from("nothing was measured")));
     };
-    let found = effects_of(args, opened, sweep, chosen, verbosity)?;
+    let found = effects_of(opened, sweep, chosen, verbosity)?;
     for (advice, effects) in advices.iter().zip(&found) {
         println!("\nlighting \"{}\"", advice.lighting);
         for sentence in advice.sentences(args.threshold) {
@@ -118,7 +118,6 @@ fn advise(
 
 /// What each effect of each lighting costs and shows, with the chosen technique.
 fn effects_of(
-    args: &Advise,
     opened: &Opened,
     sweep: &SceneSweep,
     chosen: &Row,
@@ -144,7 +143,6 @@ fn effects_of(
         bar.inc(1);
     }
     bar.finish_and_clear();
-    let _ = args;
     Ok(found)
 }
 
