@@ -13,6 +13,7 @@
 pub mod config;
 pub mod digest;
 pub mod embedded;
+pub mod multi_bounce;
 pub mod seed;
 
 pub mod scene;
