@@ -1,7 +1,8 @@
 //! The truth of a set's pictures: for each scene, occlusion by rays at the points that its
-//! images show, as files with a record.
+//! images show, as files with a record; and of one scene, light over many bounces.
 
 mod files;
+pub mod inter_reflection;
 mod record;
 mod tracer;
 
