@@ -109,6 +109,8 @@ struct Shading<'a> {
     occlusion: Option<Estimate>,
     /// What the ambient light changes by, where the technique says it by direction.
     directional: Option<Estimate>,
+    /// The WGSL of light between surfaces, where it is asked for.
+    inter_reflection: Option<String>,
     radiance: Option<wgpu::TextureView>,
     image: wgpu::TextureView,
 }
@@ -154,6 +156,10 @@ impl<'a> Shading<'a> {
             directional: (request.occlusion.technique.inputs.light)
                 .then(|| estimate("directional light", Formats::RADIANCE))
                 .flatten(),
+            inter_reflection: request
+                .occlusion
+                .inter_reflection()
+                .map(|(model, openness)| model.wgsl_given(openness)),
             radiance: plan
                 .has(PassKind::Ambient)
                 .then(|| target(gpu, "radiance", request.shaded_size(), Formats::RADIANCE)),
@@ -301,6 +307,7 @@ impl<'a> Shading<'a> {
             environment: self.drawn.environment,
             points: self.points.as_ref(),
             has_irradiance: lighting.ambient == Ambient::Environment || self.request.all_effects,
+            inter_reflection: self.inter_reflection.as_deref(),
             // As the target stores it, so that clearing has nothing to round.
             background: background.map(|channel| f16::from_f32(channel).to_f32()),
         }

@@ -18,6 +18,7 @@ mod environments;
 mod exact_occlusion;
 mod handed;
 mod hollows;
+mod inter_reflection;
 mod light;
 mod occlusion;
 mod shadows;

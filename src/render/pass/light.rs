@@ -29,6 +29,8 @@ pub(in super::super) struct LightInputs<'a> {
     pub points: Option<&'a wgpu::Buffer>,
     /// Whether the environment's irradiance is part of the ambient light.
     pub has_irradiance: bool,
+    /// The WGSL of light between surfaces, where the ambient term gets any.
+    pub inter_reflection: Option<&'a str>,
     /// What the radiance target is before any light: linear RGB.
     pub background: [f32; 3],
 }
@@ -102,7 +104,7 @@ impl<'a> LightInputs<'a> {
     }
 
     /// The parts of the shaders that differ by what the frame has.
-    pub(super) fn parts(&self) -> [(&'static str, &'static str); 6] {
+    pub(super) fn parts(&self) -> [(&'static str, &'a str); 7] {
         [
             self.normals_part,
             (
@@ -115,9 +117,12 @@ impl<'a> LightInputs<'a> {
             ),
             (
                 "occluded_ambient",
-                match self.directional {
-                    None => include_str!("../shaders/lighting/occluded_alike.wgsl"),
-                    Some(_) => include_str!("../shaders/lighting/occluded_by_direction.wgsl"),
+                match (self.directional, self.inter_reflection) {
+                    (Some(_), _) => include_str!("../shaders/lighting/occluded_by_direction.wgsl"),
+                    (None, Some(_)) => {
+                        include_str!("../shaders/lighting/occluded_and_lit_back.wgsl")
+                    }
+                    (None, None) => include_str!("../shaders/lighting/occluded_alike.wgsl"),
                 },
             ),
             (
@@ -134,6 +139,10 @@ impl<'a> LightInputs<'a> {
                 } else {
                     include_str!("../shaders/lighting/baked_none.wgsl")
                 },
+            ),
+            (
+                "inter_reflection",
+                self.inter_reflection.unwrap_or_default(),
             ),
             sun_visibility_part(self.visibility),
         ]
