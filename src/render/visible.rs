@@ -55,10 +55,7 @@ impl View<'_> {
     ///
     /// # Errors
     /// As [`View::render`].
-    pub fn visible_albedo(
-        &mut self,
-        request: &FrameRequest,
-    ) -> Result<Vec<[f32; 3]>, RenderError> {
+    pub fn visible_albedo(&mut self, request: &FrameRequest) -> Result<Vec<[f32; 3]>, RenderError> {
         let gpu = self.gpu();
         let surfaces = self.surfaces_of(request)?;
         let mut encoder = gpu

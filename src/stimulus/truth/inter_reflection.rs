@@ -97,7 +97,10 @@ fn albedo_apart(points: &RayTraced<'_>, albedos: &Albedos<'_>, drawn: &[[f32; 3]
             continue;
         };
         let own = albedos.at(triangle, point.position_m).to_array();
-        let apart = own.iter().zip(drawn).map(|(own, drawn)| (own - drawn).abs());
+        let apart = own
+            .iter()
+            .zip(drawn)
+            .map(|(own, drawn)| (own - drawn).abs());
         sum += f64::from(apart.sum::<f32>() / 3.0);
         count += 1.0;
     }

@@ -9,7 +9,7 @@ mod tracer;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-pub use files::{read_exr, write_exr};
+pub use files::{read_exr, write_channels, write_exr};
 pub use record::{FILE_NAME, TruthImage, TruthKind, TruthRecord};
 pub use tracer::SceneTracer;
 
