@@ -156,6 +156,36 @@ mod tests {
         assert!(Cli::try_parse_from(["greyfield", "inter-reflection"]).is_err());
     }
 
+    /// A whole run on plain shapes: every file is there, and the albedo that models are told is the one
+    /// that light is followed with.
+    #[test]
+    fn a_run_leaves_all_its_files() {
+        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("stimuli/scenes/shapes.toml");
+        let folder = tempfile::tempdir().unwrap();
+        let text = |path: &Path| path.to_string_lossy().into_owned();
+        let options = ["--size", "48x27", "--error", "0.05", "--quiet", "--out"];
+        let line = ["greyfield", "inter-reflection", &text(&scene)];
+        let line = line.iter().chain(&options).map(ToString::to_string);
+        let cli = Cli::try_parse_from(line.chain([text(folder.path())])).unwrap();
+        crate::cli::run(cli).unwrap();
+        let bytes = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+        let record: serde_json::Value =
+            serde_json::from_slice(&bytes("inter-reflection.json")).unwrap();
+        let truth = |key: &str| record["truth"][key].as_f64().unwrap();
+        assert!(truth("albedo_apart") < 1e-3, "{}", truth("albedo_apart"));
+        assert!(truth("mean") > truth("mean_direct") && truth("mean") < 1.0);
+        assert!(truth("largest_standard_error") <= 0.05);
+        let models = record["models"].as_array().unwrap();
+        for model in models {
+            let name = model["model"].as_str().unwrap();
+            assert!(!bytes(&format!("{name}.png")).is_empty());
+            assert!(!bytes(&format!("{name}-error.png")).is_empty());
+        }
+        let table = String::from_utf8(bytes("inter-reflection.csv")).unwrap();
+        assert_eq!(table.lines().count(), models.len() + 1);
+        assert!(!bytes("truth.exr").is_empty() && !bytes("truth.png").is_empty());
+    }
+
     #[test]
     fn wrong_settings_are_bad_input() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("stimuli/scenes/shapes.toml");
