@@ -5,6 +5,7 @@
 //! directions and the same weighting: what the second lacks against the first is information
 //! that a depth buffer does not hold. [`estimate`] asks either at every visible point.
 
+pub mod bounce_fit;
 pub mod bvh;
 pub mod directions;
 mod error;
