@@ -7,6 +7,7 @@
 //! on from there: light over any number of bounces, which models of it are measured against.
 
 mod albedo;
+pub mod bounce_fit;
 pub mod bvh;
 pub mod directions;
 mod error;
