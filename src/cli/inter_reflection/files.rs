@@ -20,9 +20,13 @@ const LARGEST_ERROR: f32 = 0.25;
 
 /// What was compared, and where.
 pub struct About<'a> {
+    /// The scene.
     pub scene: &'a SceneConfig,
+    /// What drew its points.
     pub adapter: &'a AdapterRecord,
+    /// How light was followed.
     pub settings: &'a InterReflectionSettings,
+    /// What was found.
     pub picture: &'a PictureInterReflection,
     /// What the rays took.
     pub seconds: f64,
@@ -31,6 +35,7 @@ pub struct About<'a> {
 /// The truth in numbers: means over the pixels with a surface and the channels.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Truth {
+    /// Pixels with a surface.
     pub pixels: u64,
     /// Of E/E₀.
     pub mean: f64,
@@ -38,19 +43,24 @@ pub struct Truth {
     pub mean_direct: f64,
     /// Of uniform openness α.
     pub mean_uniform_openness: f64,
+    /// Of the pixels' own albedo.
     pub mean_albedo: f64,
     /// Mean distance of the drawn albedo from the one that light is followed with.
     pub albedo_apart: f64,
     /// Of E/E₀.
     pub mean_standard_error: f64,
+    /// In any pixel and channel.
     pub largest_standard_error: f64,
     /// What the limit of bounces can have lost of E/E₀.
     pub mean_given_up: f64,
+    /// In any pixel.
     pub largest_given_up: f64,
+    /// Of the pixels with a surface.
     pub paths_per_pixel: f64,
 }
 
 impl About<'_> {
+    /// What was found, in numbers.
     pub fn truth(&self) -> Truth {
         let (picture, light) = (self.picture, &self.picture.light);
         let of_colours = |colours: &[[f32; 3]]| {
@@ -100,7 +110,10 @@ struct Line<'a> {
     error: ModelError,
 }
 
-/// Writes everything.
+/// Writes everything, the record last: where it is, all is.
+///
+/// # Errors
+/// The disk's, and what cannot be encoded.
 pub fn write(folder: &Path, about: &About<'_>, rows: &[Row]) -> Result<(), Failure> {
     table(folder, rows)?;
     channels(folder, about.picture)?;
@@ -134,7 +147,6 @@ pub fn write(folder: &Path, about: &About<'_>, rows: &[Row]) -> Result<(), Failu
             .collect(),
         seconds: about.seconds,
     };
-    // Last: where it is, all is.
     let text = serde_json::to_string_pretty(&record)? + "\n";
     Ok(write_whole(
         &folder.join("inter-reflection.json"),
