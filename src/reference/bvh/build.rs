@@ -103,10 +103,12 @@ impl Opener<'_> {
         let node = &self.binary.nodes[node];
         let mut leaf = Leaf::EMPTY;
         let mut numbers = [0; TRIANGLES];
-        for place in 0..node.prim_count as usize {
-            let at = self.binary.primitive_indices[node.first_index as usize + place] as usize;
+        let first = node.first_index as usize;
+        let all = &self.binary.primitive_indices[first..first + node.prim_count as usize];
+        for (place, (number, &at)) in numbers.iter_mut().zip(all).enumerate() {
+            let at = at as usize;
             leaf.set(place, self.corners[at], self.names[at]);
-            numbers[place] = self.numbers[at];
+            *number = self.numbers[at];
         }
         self.tree.leaves.push(leaf);
         self.tree.numbers.push(numbers);
