@@ -7,6 +7,7 @@ mod browse;
 mod check;
 mod cost;
 mod demo;
+mod inter_reflection;
 mod logging;
 mod model;
 mod order;
@@ -44,6 +45,7 @@ enum Command {
     Render(render::RenderArgs),
     Truth(truth::Truth),
     Bounces(bounces::BouncesArgs),
+    InterReflection(inter_reflection::InterReflectionArgs),
     Model(model::ModelArgs),
     Techniques(techniques::Techniques),
     Check(check::Check),
@@ -125,6 +127,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Render(args) => render::run(&args, verbosity),
         Command::Truth(args) => truth::run(&args, verbosity),
         Command::Bounces(args) => bounces::run(&args, verbosity),
+        Command::InterReflection(args) => inter_reflection::run(&args, verbosity),
         Command::Model(args) => model::run(&args, verbosity),
         Command::Techniques(args) => techniques::run(&args),
         Command::Check(args) => check::run(&args, verbosity),
