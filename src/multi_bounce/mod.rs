@@ -15,6 +15,7 @@ mod published_safe;
 use num_traits::Float;
 
 pub use greyfield::{COEFFICIENTS, Coefficients};
+pub use published::{direct as published_direct, first_bounce as published_first_bounce};
 
 /// What of a point a model is a function of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]

@@ -46,21 +46,26 @@ impl Sheet {
     /// What the lines stand for, in a row from the left.
     pub fn keys(&mut self, left: f64, y: f64, keys: &[(Key, &str)]) {
         let mut x = left;
-        let middle = y - 4.0;
         for (key, text) in keys {
-            let ends = [(x, middle), (x + 28.0, middle)];
-            let centre = (x + 14.0, middle);
-            match key {
-                Key::Line(class) => self.svg.polyline(class, &ends),
-                Key::Marked(line, mark) => {
-                    self.svg.polyline(line, &ends);
-                    self.svg.mark(mark, Mark::Disc, centre, 3.5);
-                }
-                Key::Mark(class) => self.svg.mark(class, Mark::Disc, centre, 4.0),
-            }
-            self.svg.text("key", x + 34.0, y, Anchor::Start, text);
+            self.key(x, y, key, text);
             x += 34.0 + text_width(text, 12.0) + 14.0;
         }
+    }
+
+    /// What one line stands for.
+    pub fn key(&mut self, x: f64, y: f64, key: &Key, text: &str) {
+        let middle = y - 4.0;
+        let ends = [(x, middle), (x + 28.0, middle)];
+        let centre = (x + 14.0, middle);
+        match key {
+            Key::Line(class) => self.svg.polyline(class, &ends),
+            Key::Marked(line, mark) => {
+                self.svg.polyline(line, &ends);
+                self.svg.mark(mark, Mark::Disc, centre, 3.5);
+            }
+            Key::Mark(class) => self.svg.mark(class, Mark::Disc, centre, 4.0),
+        }
+        self.svg.text("key", x + 34.0, y, Anchor::Start, text);
     }
 
     /// The figure as a file: captions below what is drawn, from `y` on. `class` is what its style
