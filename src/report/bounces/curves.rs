@@ -1,7 +1,7 @@
 //! What every bounce brings, over openness.
 
 use super::layout::{LEFT, OPENNESS, band, curve, line, provenance};
-use super::look::{self, finish, step, strip};
+use super::look::{self, finish, strip};
 use super::{Figure, stem_of};
 use crate::reference::bounce_fit::{LEAST_TEXELS, StudiedMap};
 use crate::report::figure::axis::Scale;
@@ -10,8 +10,6 @@ use crate::report::figure::panel::{Panel, Titles};
 use crate::report::figure::sheet::{Key, MARGIN, Sheet, WIDTH};
 use crate::report::svg::Anchor;
 
-/// Bounces of the ramp: as many as the notes show, or more where there are.
-const BOUNCES: usize = 20;
 /// Smallest share of a logarithmic axis.
 const LEAST: f64 = 1e-5;
 /// Bounces that have a number beside their curve.
@@ -34,27 +32,28 @@ pub fn figure(map: &StudiedMap) -> Figure {
         ),
     ];
     let y = look::keys(&mut sheet, 46.0, &keys);
-    let ends = ["direct", &format!("bounce {}", map.bounces)];
+    let last = format!("to {}", map.bounces);
+    let ramp = (2..=map.bounces).map(|bounce| class(map, bounce));
     strip(
         &mut sheet.svg,
-        (WIDTH - 330.0, y - 14.0),
-        ends,
-        (0..=map.bounces).map(|k| class(map, k)),
+        (MARGIN, y + 6.0),
+        ["bounces from 2", &last],
+        ramp,
     );
-    all(&mut sheet, map, y + 16.0);
-    later(&mut sheet, map, y + 366.0);
+    all(&mut sheet, map, y + 26.0);
+    later(&mut sheet, map, y + 396.0);
     let captions = [
         provenance(map),
         format!(
             "Shares E/π of the irradiance of a point in the open under a sky of unit radiance; albedo 1. Lines: means of bins of 0.01 of α with {LEAST_TEXELS} texels or more; bands: one standard deviation of the texels in a bin; dots: some of the texels, evenly over the map."
         ),
     ];
-    let svg = finish(sheet, &captions, y + 634.0);
+    let svg = finish(sheet, &captions, y + 664.0);
     Figure::new(format!("curves--{}", stem_of(map)), &title, svg)
 }
 
 fn class(map: &StudiedMap, bounce: usize) -> String {
-    step(bounce, map.bounces.max(BOUNCES) + 1)
+    look::bounce(bounce, map.bounces)
 }
 
 /// Direct light and all bounces on one scale.

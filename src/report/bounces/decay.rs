@@ -221,6 +221,7 @@ fn from_above(svg: &mut Svg, map: &StudiedMap, grid: &Heights, top: f64) {
         x: Scale::exactly(0.0, 1.0, (LEFT, WIDTH - MARGIN)),
         y: Scale::exactly(bounces + 0.5, 0.5, (top + 200.0, top)),
     };
+    panel.draw_x(svg);
     for bounce in 1..=map.bounces {
         for at in curve(map, bounce) {
             let (left, high) = panel.at(at.openness - 0.005, bounce as f64 - 0.5);
@@ -229,7 +230,6 @@ fn from_above(svg: &mut Svg, map: &StudiedMap, grid: &Heights, top: f64) {
             svg.rect(&class, left, high, right - left, low - high);
         }
     }
-    panel.draw_x(svg);
     let middle = 0.5 * (LEFT + WIDTH - MARGIN);
     svg.text("tick", middle, top + 234.0, Anchor::Middle, OPENNESS);
     for bounce in (View {

@@ -76,6 +76,13 @@ fn figure(study: &Study, map: &StudiedMap) -> Figure {
             .svg
             .text("panel-title", left, top - 8.0, Anchor::Start, &name);
         draw(&mut sheet, &panel, map, model);
+        if let Some(text) = outside(model) {
+            let (right, bottom) = (panel.x.end - 8.0, panel.y.start);
+            for (line, text) in text.iter().enumerate() {
+                let y = bottom - 26.0 + 15.0 * line as f64;
+                sheet.svg.text("note", right, y, Anchor::End, text);
+            }
+        }
     }
     let captions = [
         provenance(map),
@@ -85,6 +92,26 @@ fn figure(study: &Study, map: &StudiedMap) -> Figure {
     ];
     let svg = finish(sheet, &captions, grid.bottom(shown.len()));
     Figure::new(format!("family--{}", stem_of(map)), &title, svg)
+}
+
+/// What 8-bit textures can hold for which a model is no light there can be; none where all is well.
+fn outside(model: &Shown) -> Option<[String; 2]> {
+    if model.is_safe {
+        return None;
+    }
+    let levels = || (0..=255).map(|level| f64::from(level) / 255.0);
+    let all = levels().flat_map(|a| levels().map(move |rho| (a, rho)));
+    let (mut none, mut outside) = (0, 0);
+    for (alpha, rho) in all {
+        let value = (model.value)(alpha, alpha, rho);
+        none += usize::from(!value.is_finite());
+        // Rounding is no light.
+        outside += usize::from(value.is_finite() && !(-1e-9..=1.0 + 1e-9).contains(&value));
+    }
+    Some([
+        format!("of 256 × 256 levels of α and ρ: {none} no number,"),
+        format!("{outside} below 0 or above 1"),
+    ])
 }
 
 fn albedo(place: usize) -> String {

@@ -27,6 +27,8 @@ pub struct Grid {
     pub high: f64,
     /// Room between rows.
     pub below: f64,
+    /// Room between columns.
+    pub beside: f64,
 }
 
 impl Grid {
@@ -37,14 +39,15 @@ impl Grid {
             top,
             high,
             below: GAP.1,
+            beside: GAP.0,
         }
     }
 
     /// The sides of a panel, left and right, bottom and top.
     pub fn sides(&self, index: usize) -> ((f64, f64), (f64, f64)) {
-        let room = WIDTH - MARGIN - LEFT + GAP.0;
-        let wide = room / self.columns as f64 - GAP.0;
-        let left = LEFT + (index % self.columns) as f64 * (wide + GAP.0);
+        let room = WIDTH - MARGIN - LEFT + self.beside;
+        let wide = room / self.columns as f64 - self.beside;
+        let left = LEFT + (index % self.columns) as f64 * (wide + self.beside);
         let top = self.top + (index / self.columns) as f64 * (self.high + self.below);
         ((left, left + wide), (top + self.high, top))
     }
@@ -94,8 +97,8 @@ pub fn band(svg: &mut Svg, panel: &Panel, class: &str, map: &StudiedMap, bounce:
 
 /// Openness at even steps, finer where the direct light nears the open.
 pub fn openness() -> impl Iterator<Item = f64> + Clone {
-    let coarse = (0..180).map(|k| f64::from(k) / 200.0);
-    coarse.chain((0..=400).map(|k| 0.9 + f64::from(k) / 4000.0))
+    let coarse = (0..90).map(|k| f64::from(k) / 100.0);
+    coarse.chain((0..=200).map(|k| 0.9 + f64::from(k) / 2000.0))
 }
 
 /// A sentence on how a map was followed.

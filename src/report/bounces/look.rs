@@ -17,6 +17,8 @@ const HEAT: usize = 32;
 /// Parts of magma that show on white and on black.
 const ON_WHITE: (f32, f32) = (0.12, 0.76);
 const ON_BLACK: (f32, f32) = (0.36, 0.98);
+/// Share of magma that stands for the least number.
+const DARKEST: f32 = 0.14;
 /// How many colours of maps `figure.css` has.
 const MAPS: usize = 12;
 
@@ -24,6 +26,18 @@ const MAPS: usize = 12;
 pub fn step(place: usize, of: usize) -> String {
     let last = of.saturating_sub(1).max(1);
     format!("r{}", (place.min(last) * (STEPS - 1) + last / 2) / last)
+}
+
+/// Class of a bounce: the direct light and the first bounce are told apart by hue, those that follow
+/// are steps of the ramp.
+pub fn bounce(bounce: usize, last: usize) -> String {
+    /// Bounces that the notes show.
+    const USUAL: usize = 20;
+    match bounce {
+        0 => String::from("t0"),
+        1 => String::from("t1"),
+        later => step(later - 2, last.max(USUAL) - 1),
+    }
 }
 
 /// Class of a map by its place in the study.
@@ -50,7 +64,9 @@ pub fn style() -> String {
     ramp(&mut style, ON_BLACK);
     style.push_str("}\n");
     for step in 0..HEAT {
-        let colour = hex(magma(step as f32 / (HEAT - 1) as f32));
+        // Not from black on, in which the lines of a surface would drown.
+        let share = DARKEST + (1.0 - DARKEST) * step as f32 / (HEAT - 1) as f32;
+        let colour = hex(magma(share));
         let _ = writeln!(style, ".bounces .h{step} {{ fill: {colour}; }}");
     }
     style

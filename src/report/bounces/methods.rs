@@ -39,7 +39,7 @@ pub fn methods(page: &mut String) {
             ),
             (
                 "Held out",
-                "Maps that no model of this page was fitted to. What a model misses on them is what to expect of it elsewhere.",
+                "Maps that the fits of this page have not seen. What a refitted model misses on them is what to expect of it elsewhere.",
             ),
             (
                 "95 % intervals",

@@ -12,6 +12,8 @@ pub struct Shown<'a> {
     pub name: String,
     /// Whether it takes the direct light in place of the openness.
     pub is_cosine: bool,
+    /// Whether it is finite and in 0 to 1 everywhere.
+    pub is_safe: bool,
     /// What it says.
     pub value: Value<'a>,
 }
@@ -26,6 +28,7 @@ pub fn models(study: &Study) -> Vec<Shown<'_>> {
         .map(|model| Shown {
             name: model.name.to_owned(),
             is_cosine: model.openness == Openness::Cosine,
+            is_safe: model.is_safe,
             value: match model.openness {
                 Openness::Uniform => Box::new(|alpha, _, rho| (model.f64)(alpha, rho)),
                 Openness::Cosine => Box::new(|_, direct, rho| (model.f64)(direct, rho)),
@@ -36,6 +39,7 @@ pub fn models(study: &Study) -> Vec<Shown<'_>> {
         found.push(Shown {
             name: REFITTED.to_owned(),
             is_cosine: false,
+            is_safe: true,
             value: Box::new(|alpha, _, rho| refitted.value(alpha, rho)),
         });
     }

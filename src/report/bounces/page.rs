@@ -5,10 +5,8 @@ use std::fmt::Write as _;
 use super::methods::methods;
 use super::residuals::GOAL;
 use super::{Figure, figures, tables};
-use crate::reference::bounce_fit::{MapError, Study};
+use crate::reference::bounce_fit::Study;
 use crate::report::VERSION;
-use crate::report::figure::numbers::fixed;
-use crate::report::figure::words::distinct;
 use crate::report::markup::{figure, paragraph};
 use crate::report::svg::escape;
 
@@ -88,47 +86,19 @@ fn result(page: &mut String, study: &Study) {
             if fitted == 1 { "map" } else { "maps" }
         ),
     );
-    for model in distinct(study.errors.iter().map(|error| error.model.as_str())) {
-        paragraph(page, &finding(study, model));
+    if !study.errors.is_empty() {
+        tables::summary(page, study);
     }
     page.push_str("</section>\n");
 }
 
-/// A model in a sentence: root mean squares on both kinds of maps, each map alike.
-fn finding(study: &Study, model: &str) -> String {
-    let over = |held_out: bool| {
-        let is_here = |error: &&MapError| {
-            error.model == model && error.held_out == held_out && error.albedo.is_none()
-        };
-        let squares: Vec<f64> = (study.errors.iter().filter(is_here))
-            .map(|error| error.rmse * error.rmse)
-            .filter(|square| square.is_finite())
-            .collect();
-        let count = squares.len();
-        (count > 0).then(|| (squares.iter().sum::<f64>() / count as f64).sqrt())
-    };
-    let said = [
-        (false, "on the maps fitted to"),
-        (true, "on those held out"),
-    ];
-    let said: Vec<String> = (said.into_iter())
-        .filter_map(|(held_out, name)| Some(format!("{} {name}", fixed(over(held_out)?, 4))))
-        .collect();
-    let all = study
-        .errors
-        .iter()
-        .filter(|error| error.model == model && error.albedo.is_some());
-    let lost: usize = all.map(|error| error.not_finite).sum();
-    let lost = match lost {
-        0 => String::new(),
-        count => format!("; no finite number in {count} bins and albedos"),
-    };
-    format!("{model}: rmse {}{lost}.", said.join(", "))
-}
-
 fn simulation(page: &mut String, study: &Study, drawn: &[Figure]) {
     page.push_str("<section>\n<h2>Every bounce</h2>\n");
-    tables::maps(page, "Maps that light was followed on", &study.maps);
+    tables::maps(
+        page,
+        "Maps that light was followed on; bounces end where all that were asked for are made, where one adds less than half a level of 8 bits to every texel (too faint), or where nothing is sent back (dark)",
+        &study.maps,
+    );
     let curves = of(drawn, &["curves--"]);
     if let Some((first, others)) = curves.split_first() {
         figure(page, &first.svg);

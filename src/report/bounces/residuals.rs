@@ -88,7 +88,8 @@ fn axes(
     name: Option<&str>,
 ) {
     let area = panel.area();
-    let row = format!("ρ = {rho}: missed");
+    let row = format!("missed at ρ = {rho}");
+    svg.line("axis", (area.left, area.top), (area.left, area.bottom));
     for tick in panel.y.ticks() {
         svg.line("grid", (area.left, tick.at), (area.right, tick.at));
         if let (Some(label), true) = (tick.label, is_first) {

@@ -31,7 +31,7 @@ pub fn figure(study: &Study) -> Figure {
     let top = measured(&mut sheet, study, 316.0);
     let captions = [
         String::from(
-            "All bounces after the direct light have the colour ρ/(1−ρτ), with ρ the albedo of each channel and τ the share of what a bounce leaves that the next ones still move: 0 is one bounce, 1 is no end of them. Upper half of each swatch: ρ(1−τ)/(1−ρτ), the share of the blocked light that comes back, as bright as it is; lower half: its colour alone, the brightest channel at 1. Saturation: 1 − least/greatest channel, linear.",
+            "All bounces after the direct light have the colour ρ/(1−ρτ), with ρ the albedo of each channel and τ the share of what a bounce leaves that the next ones still move: 0 is one bounce, 1 is no end of them. Upper half of each swatch: as bright as that is beside τ = 1, for one and the same first bounce; lower half: its colour alone, the brightest channel at 1. Saturation: 1 − least/greatest channel, linear.",
         ),
         String::from(
             "Measured: lines: τ₂ = 1 − F₂/(1−F₀−F₁), what is left after the second bounce, by map; dashed: the published τ = 1 − F₁/(1−F₀). Only where at least 1 % of the light is left to share out.",
@@ -40,22 +40,25 @@ pub fn figure(study: &Study) -> Figure {
     Figure::new("saturation", title, finish(sheet, &captions, top))
 }
 
-/// ρ/(1−ρτ) in each channel, times 1−τ; at ρ = τ = 1 its limit.
-fn returned(rho: [f64; 3], tau: f64) -> [f64; 3] {
-    rho.map(|rho| {
-        let left = 1.0 - rho * tau;
-        if left > 0.0 {
-            rho * (1.0 - tau) / left
-        } else {
-            1.0
-        }
-    })
+/// ρ/(1−ρτ) in each channel, for albedos below 1.
+fn bounced(rho: [f64; 3], tau: f64) -> [f64; 3] {
+    rho.map(|rho| rho / (1.0 - rho * tau))
 }
 
-/// The colour without its brightness: ρ/(1−ρτ) with the brightest channel at 1.
+fn brightest(colour: [f64; 3]) -> f64 {
+    colour.into_iter().fold(0.0, f64::max)
+}
+
+/// As bright as it is where the brightest channel at τ = 1 is 1.
+fn exposed(rho: [f64; 3], tau: f64) -> [f64; 3] {
+    let most = brightest(bounced(rho, 1.0));
+    bounced(rho, tau).map(|channel| channel / most)
+}
+
+/// The colour without its brightness: the brightest channel is 1.
 fn colour(rho: [f64; 3], tau: f64) -> [f64; 3] {
-    let channels = rho.map(|rho| rho / (1.0 - rho * tau).max(1e-9));
-    let most = channels.into_iter().fold(1e-9, f64::max);
+    let channels = bounced(rho, tau);
+    let most = brightest(channels);
     channels.map(|channel| channel / most)
 }
 
@@ -82,7 +85,7 @@ fn swatches(svg: &mut Svg, top: f64) {
         for k in 0..11 {
             let tau = f64::from(k) / 10.0;
             let x = left + wide * f64::from(k);
-            let both = [returned(rho, tau), colour(rho, tau)];
+            let both = [exposed(rho, tau), colour(rho, tau)];
             for (half, linear) in both.into_iter().enumerate() {
                 let y = y + half as f64 * 0.5 * HIGH;
                 svg.filled(&css(linear), (x, y), (wide - 1.0, 0.5 * HIGH));
@@ -94,7 +97,7 @@ fn swatches(svg: &mut Svg, top: f64) {
 const HIGH: f64 = 230.0;
 
 fn saturations(svg: &mut Svg, top: f64) {
-    let right = 0.5 * (LEFT + WIDTH - MARGIN) - 76.0;
+    let right = 0.5 * (LEFT + WIDTH - MARGIN) - 90.0;
     let panel = Panel {
         x: Scale::exactly(0.0, 1.0, (LEFT, right)),
         y: Scale::exactly(0.0, 1.0, (top + HIGH, top)),
@@ -125,7 +128,7 @@ fn measured(sheet: &mut Sheet, study: &Study, top: f64) -> f64 {
         x: Scale::exactly(
             0.0,
             1.0,
-            (0.5 * (LEFT + WIDTH - MARGIN) + 60.0, WIDTH - MARGIN),
+            (0.5 * (LEFT + WIDTH - MARGIN) + 70.0, WIDTH - MARGIN),
         ),
         y: Scale::exactly(0.0, 1.0, (top + HIGH, top)),
     };
@@ -171,23 +174,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bounces_saturate_and_never_add_light() {
+    fn bounces_saturate_and_add_light() {
         for (name, rho, _) in COLOURS {
-            let found: Vec<f64> = (0..=10)
-                .map(|k| saturation(rho, f64::from(k) / 10.0))
-                .collect();
+            let taus = (0..=10).map(|k| f64::from(k) / 10.0);
+            let found: Vec<f64> = taus.map(|tau| saturation(rho, tau)).collect();
             assert!(
                 found.windows(2).all(|two| two[0] < two[1]),
                 "{name} {found:?}"
             );
-            assert!(
-                returned(rho, 0.5)
-                    .iter()
-                    .zip(rho)
-                    .all(|(back, rho)| *back < rho)
-            );
+            assert!(brightest(exposed(rho, 0.5)) < 1.0 && exposed(rho, 1.0) == colour(rho, 1.0));
         }
-        assert_eq!(returned([1.0; 3], 1.0), [1.0; 3]);
         assert_eq!(css([0.0, 1.0, 0.5]), "#00ffbc");
     }
 }

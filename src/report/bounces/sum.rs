@@ -2,7 +2,7 @@
 
 use super::Figure;
 use super::layout::{LEFT, OPENNESS, curve, line, provenance};
-use super::look::{self, finish, step, strip};
+use super::look::{self, finish, strip};
 use crate::reference::bounce_fit::{StudiedMap, Study};
 use crate::report::figure::axis::Scale;
 use crate::report::figure::panel::{Panel, Titles};
@@ -21,14 +21,9 @@ pub fn figure(study: &Study, first: &StudiedMap) -> Figure {
         .map(|(map, look)| (Key::Line(look), map.name.clone()))
         .collect();
     let y = look::keys(&mut sheet, 46.0, &keys);
-    let count = first.bounces + 1;
-    let ends = ["direct", &format!("bounce {}", first.bounces)];
-    strip(
-        &mut sheet.svg,
-        (MARGIN, y + 8.0),
-        ends,
-        (0..count).map(|k| step(k, count)),
-    );
+    let words = ["left: direct and bounces", &format!("to {}", first.bounces)];
+    let classes = (0..=first.bounces).map(|bounce| look::bounce(bounce, first.bounces));
+    strip(&mut sheet.svg, (MARGIN, y + 8.0), words, classes);
     layers(&mut sheet, first, y + 50.0);
     sums(&mut sheet, study, first, y + 50.0);
     let captions = [
@@ -44,7 +39,7 @@ const HIGH: f64 = 300.0;
 
 fn sides() -> [(f64, f64); 2] {
     let middle = 0.5 * (LEFT + WIDTH - MARGIN);
-    [(LEFT, middle - 20.0), (middle + 48.0, WIDTH - MARGIN)]
+    [(LEFT, middle - 20.0), (middle + 62.0, WIDTH - MARGIN)]
 }
 
 /// Each bounce as a layer on those before.
@@ -75,7 +70,7 @@ fn layers(sheet: &mut Sheet, map: &StudiedMap, top: f64) {
             .collect();
         let corners = below.iter().chain(above.iter().rev());
         let corners: Vec<_> = corners.map(|(x, y)| panel.at(*x, *y)).collect();
-        let class = format!("layer {}", step(bounce, map.bounces + 1));
+        let class = format!("layer {}", look::bounce(bounce, map.bounces));
         svg.polygon(&class, &corners);
         below = above;
     }

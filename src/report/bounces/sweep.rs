@@ -29,16 +29,25 @@ pub fn figure(study: &Study) -> Option<Figure> {
         })
         .collect();
     let y = look::keys(&mut sheet, 46.0, &keys);
-    let grid = Grid::new(3, y + 24.0, 260.0);
+    let grid = Grid {
+        beside: 60.0,
+        ..Grid::new(3, y + 24.0, 260.0)
+    };
     let direct = |map: &StudiedMap| points(map, 0);
     let bounced = |map: &StudiedMap| points(map, 1);
-    let panels: [(&str, &dyn Fn(&StudiedMap) -> Vec<(f64, f64)>, f64); 3] = [
-        ("direct light E₀/π", &direct, 1.05),
-        ("first bounce E₁/π", &bounced, highest(sweep)),
-        ("sum at an albedo of 1", &sums, 1.05),
+    let lowest = sweep.iter().flat_map(sums).map(|(_, sum)| sum);
+    let missing = 1.0 - lowest.fold(0.99, f64::min);
+    let panels: [(&str, &dyn Fn(&StudiedMap) -> Vec<(f64, f64)>, (f64, f64)); 3] = [
+        ("direct light E₀/π", &direct, (0.0, 1.05)),
+        ("first bounce E₁/π", &bounced, (0.0, highest(sweep))),
+        (
+            "sum ΣE/π at an albedo of 1, close by",
+            &sums,
+            (1.0 - 1.2 * missing, 1.0 + 0.3 * missing),
+        ),
     ];
-    for (index, (name, of, most)) in panels.into_iter().enumerate() {
-        let panel = grid.panel(index, (0.0, most));
+    for (index, (name, of, ends)) in panels.into_iter().enumerate() {
+        let panel = grid.panel(index, ends);
         let titles = Titles {
             x: Some(OPENNESS),
             y: Some(""),
@@ -50,13 +59,7 @@ pub fn figure(study: &Study) -> Option<Figure> {
             .svg
             .text("panel-title", left, top - 8.0, Anchor::Start, name);
         for (map, look) in sweep.iter().zip(&looks) {
-            line(
-                &mut sheet.svg,
-                &panel,
-                look,
-                of(map).into_iter(),
-                (0.0, most),
-            );
+            line(&mut sheet.svg, &panel, look, of(map).into_iter(), ends);
         }
     }
     let captions = [

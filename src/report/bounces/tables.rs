@@ -15,9 +15,9 @@ pub fn maps(page: &mut String, caption: &str, maps: &[StudiedMap]) {
             Border::Open => "open",
         };
         let stopped = match map.stopped {
-            Stopped::Enough => "as many as asked for",
-            Stopped::Unseen => "the last is below half a level of 8 bits",
-            Stopped::Dark => "nothing is sent back",
+            Stopped::Enough => "all asked for",
+            Stopped::Unseen => "too faint",
+            Stopped::Dark => "dark",
         };
         let open = map.measured.bins.iter().map(|bin| bin.openness);
         let (least, most) = (open.clone().fold(1.0, f64::min), open.fold(0.0, f64::max));
@@ -107,6 +107,51 @@ fn fit_cells(fit: &Fit) -> Vec<Vec<String>> {
             ]
         })
         .collect()
+}
+
+/// A model a row: root mean squares on both kinds of maps, each map alike.
+pub fn summary(page: &mut String, study: &Study) {
+    let cells = |model: &str| {
+        let of_model = || {
+            study
+                .errors
+                .iter()
+                .filter(move |error| error.model == model)
+        };
+        let over = |held_out: bool| {
+            let is_here = |error: &&MapError| error.held_out == held_out && error.albedo.is_none();
+            let squares: Vec<f64> = (of_model().filter(is_here))
+                .map(|error| error.rmse * error.rmse)
+                .filter(|square| square.is_finite())
+                .collect();
+            let count = squares.len();
+            (count > 0).then(|| (squares.iter().sum::<f64>() / count as f64).sqrt())
+        };
+        let lost: usize = of_model()
+            .filter(|error| error.albedo.is_some())
+            .map(|error| error.not_finite)
+            .sum();
+        let four = |value| fixed(value, 4);
+        vec![
+            model.to_owned(),
+            or_missing(over(false), four),
+            or_missing(over(true), four),
+            lost.to_string(),
+        ]
+    };
+    let models = distinct(study.errors.iter().map(|error| error.model.as_str()));
+    table(
+        page,
+        "",
+        "Root mean square of what each model misses of E/π over the albedos 0 to 0.9, every map and every bin of openness alike",
+        &[
+            Column::Words("model"),
+            Column::Numbers("maps fitted to"),
+            Column::Numbers("maps held out"),
+            Column::Numbers("bins and albedos without a number"),
+        ],
+        &models.into_iter().map(cells).collect::<Vec<_>>(),
+    );
 }
 
 /// What models miss on each map over all albedos below 1.

@@ -160,6 +160,36 @@ fn whole(sheet: &mut Sheet, map: &StudiedMap, bounce: usize, guesses: &[Guess], 
     HIGH
 }
 
+/// What a formula says minus what a map has, by openness.
+fn missed<'a>(
+    map: &'a StudiedMap,
+    bounce: usize,
+    guess: &'a Guess,
+) -> impl Iterator<Item = (f64, f64)> + 'a {
+    map.measured.bins.iter().filter_map(move |bin| {
+        let measured = bin.factors.get(bounce)?;
+        Some((bin.openness, (guess.value)(bin.openness) - measured))
+    })
+}
+
+/// A round number that most of what the better formulas miss lies within.
+fn limit(study: &Study, bounce: usize, guesses: &[Guess]) -> f64 {
+    const ROUND: [f64; 5] = [0.02, 0.03, 0.05, 0.1, 0.2];
+    const MOST: f64 = 0.9;
+    let mut all: Vec<f64> = (guesses.iter().skip(1))
+        .flat_map(|guess| (study.maps.iter()).flat_map(move |map| missed(map, bounce, guess)))
+        .map(|(_, missed)| missed.abs())
+        .filter(|missed| missed.is_finite())
+        .collect();
+    all.sort_by(f64::total_cmp);
+    let most = all.get((MOST * all.len() as f64) as usize).copied();
+    let most = most.unwrap_or(0.0);
+    ROUND
+        .into_iter()
+        .find(|round| *round >= most)
+        .unwrap_or(0.2)
+}
+
 /// A panel a formula; the height below them, and how far they reach.
 fn residuals(
     sheet: &mut Sheet,
@@ -168,18 +198,18 @@ fn residuals(
     guesses: &[Guess],
     top: f64,
 ) -> (f64, f64) {
-    const COLUMNS: usize = 3;
-    let limit = if bounce == 0 { 0.06 } else { 0.03 };
+    let columns = if guesses.len() == 4 { 4 } else { 3 };
+    let limit = limit(study, bounce, guesses);
     let grid = Grid {
         below: 56.0,
-        ..Grid::new(COLUMNS, top, 110.0)
+        ..Grid::new(columns, top, 110.0)
     };
     for (index, guess) in guesses.iter().enumerate() {
         let panel = grid.panel(index, (-limit, limit));
-        let is_last_row = index + COLUMNS >= guesses.len();
+        let is_last_row = index + columns >= guesses.len();
         let titles = Titles {
             x: is_last_row.then_some("openness α"),
-            y: (index % COLUMNS == 0).then_some("said − measured"),
+            y: (index % columns == 0).then_some("said − measured"),
             y_unit: "",
         };
         let svg = &mut sheet.svg;
@@ -190,11 +220,7 @@ fn residuals(
         svg.line("zero", (left, panel.y.at(0.0)), (right, panel.y.at(0.0)));
         for (place, map) in study.maps.iter().enumerate() {
             let weight = if map.held_out { "dash" } else { "thin" };
-            let bins = map.measured.bins.iter();
-            let missed = bins.filter_map(|bin| {
-                let measured = bin.factors.get(bounce)?;
-                Some((bin.openness, (guess.value)(bin.openness) - measured))
-            });
+            let missed = missed(map, bounce, guess);
             line(
                 svg,
                 &panel,

@@ -216,7 +216,7 @@ fn every_figure_is_whole_and_says_what_its_axes_are() {
             "{}",
             figure.stem
         );
-        let said = ["irradiance", "E₀/π", "E/π", "τ₂", "luminance"];
+        let said = ["irradiance", "E₁/π", "E₀/π", "E/π", "τ₂", "luminance"];
         assert!(
             said.iter().any(|said| figure.svg.contains(said)),
             "{}",
