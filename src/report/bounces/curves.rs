@@ -109,13 +109,13 @@ fn later(sheet: &mut Sheet, map: &StudiedMap, top: f64) {
         x: Scale::exactly(0.0, 1.0, (middle + 48.0, WIDTH - MARGIN)),
         y: Scale::log(least, 10.0, (top + HIGH, top)).padded(0.02, 0.03),
     };
-    for (panel, title, name) in [
-        (&linear, "E/π", "the bounces alone"),
-        (&log, "E/π (log)", "the same by ratios"),
+    for (panel, name) in [
+        (&linear, "the bounces alone, E/π"),
+        (&log, "the same by ratios, E/π (log)"),
     ] {
         let titles = Titles {
             x: Some(OPENNESS),
-            y: Some(title),
+            y: Some(""),
             y_unit: "",
         };
         panel.draw(&mut sheet.svg, &titles);

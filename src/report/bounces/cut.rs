@@ -79,7 +79,7 @@ fn crossing(from: (f64, f64), to: (f64, f64), (low, high): (f64, f64)) -> Option
     [low, high].into_iter().find_map(|end| {
         let part = (end - from.1) / rise;
         let is_between = part > 0.0 && part < 1.0;
-        is_between.then(|| (from.0 + part * (to.0 - from.0), end))
+        is_between.then_some((from.0 + part * (to.0 - from.0), end))
     })
 }
 

@@ -1,14 +1,14 @@
 //! Models beside the data at every albedo, one panel a model.
 
 use super::cut;
-use super::layout::{Grid, OPENNESS, openness, provenance};
+use super::layout::{Grid, OPENNESS, openness, openness_finely, provenance};
 use super::look::{finish, step, strip};
 use super::models::{Shown, models};
 use super::{Figure, stem_of};
 use crate::reference::bounce_fit::{ALBEDOS, StudiedMap, Study};
 use crate::report::figure::panel::{Panel, Titles};
 use crate::report::figure::sheet::{MARGIN, Sheet};
-use crate::report::svg::{Anchor, Mark};
+use crate::report::svg::{Anchor, Mark, Svg};
 
 /// Values that the panels show: somewhat beyond what light there can be.
 const ENDS: (f64, f64) = (0.0, 1.12);
@@ -32,29 +32,7 @@ fn figure(study: &Study, map: &StudiedMap) -> Figure {
     let held_out = if map.held_out { ", held out" } else { "" };
     let title = format!("{}{held_out}: models at every albedo", map.name);
     let mut sheet = Sheet::new(&title);
-    let svg = &mut sheet.svg;
-    let classes = (0..ALBEDOS.len()).map(albedo);
-    let right = strip(svg, (MARGIN, 46.0), ["albedo ρ 0", "1, by tenths"], classes);
-    svg.dots(
-        "data t-none",
-        &[0.0, 7.0, 14.0].map(|x| (right + 30.0 + x, 42.0)),
-    );
-    svg.text("key", right + 52.0, 46.0, Anchor::Start, "measured");
-    svg.polyline(
-        "line t-none",
-        &[(right + 130.0, 42.0), (right + 158.0, 42.0)],
-    );
-    svg.text("key", right + 164.0, 46.0, Anchor::Start, "model");
-    svg.mark("out", Mark::Up, (right + 226.0, 42.0), 3.2);
-    svg.text(
-        "key",
-        right + 236.0,
-        46.0,
-        Anchor::Start,
-        "beyond the panel",
-    );
-    svg.mark("out", Mark::Cross, (right + 362.0, 42.0), 3.2);
-    svg.text("key", right + 372.0, 46.0, Anchor::Start, "no number");
+    keys(&mut sheet.svg);
     let shown = models(study);
     let grid = Grid::new(COLUMNS, 86.0, 230.0);
     for (index, model) in shown.iter().enumerate() {
@@ -92,6 +70,32 @@ fn figure(study: &Study, map: &StudiedMap) -> Figure {
     ];
     let svg = finish(sheet, &captions, grid.bottom(shown.len()));
     Figure::new(format!("family--{}", stem_of(map)), &title, svg)
+}
+
+/// What colours, lines and marks stand for.
+fn keys(svg: &mut Svg) {
+    let classes = (0..ALBEDOS.len()).map(albedo);
+    let right = strip(svg, (MARGIN, 46.0), ["albedo ρ 0", "1, by tenths"], classes);
+    svg.dots(
+        "data t-none",
+        &[0.0, 7.0, 14.0].map(|x| (right + 30.0 + x, 42.0)),
+    );
+    svg.text("key", right + 52.0, 46.0, Anchor::Start, "measured");
+    svg.polyline(
+        "line t-none",
+        &[(right + 130.0, 42.0), (right + 158.0, 42.0)],
+    );
+    svg.text("key", right + 164.0, 46.0, Anchor::Start, "model");
+    svg.mark("out", Mark::Up, (right + 226.0, 42.0), 3.2);
+    svg.text(
+        "key",
+        right + 236.0,
+        46.0,
+        Anchor::Start,
+        "beyond the panel",
+    );
+    svg.mark("out", Mark::Cross, (right + 362.0, 42.0), 3.2);
+    svg.text("key", right + 372.0, 46.0, Anchor::Start, "no number");
 }
 
 /// What 8-bit textures can hold for which a model is no light there can be; none where all is well.
@@ -151,8 +155,11 @@ fn draw(sheet: &mut Sheet, panel: &Panel, map: &StudiedMap, model: &Shown) {
             });
             cut::draw(svg, panel, &class, points, ENDS);
         } else {
-            let points = openness().map(|a| (a, (model.value)(a, f64::NAN, rho)));
-            cut::draw(svg, panel, &class, points, ENDS);
+            let points = |a| (a, (model.value)(a, f64::NAN, rho));
+            match model.is_safe {
+                true => cut::draw(svg, panel, &class, openness().map(points), ENDS),
+                false => cut::draw(svg, panel, &class, openness_finely().map(points), ENDS),
+            }
         }
     }
 }

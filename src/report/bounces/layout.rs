@@ -101,6 +101,12 @@ pub fn openness() -> impl Iterator<Item = f64> + Clone {
     coarse.chain((0..=200).map(|k| 0.9 + f64::from(k) / 2000.0))
 }
 
+/// The same, finer still: for a model whose pole is narrower than the steps of the others.
+pub fn openness_finely() -> impl Iterator<Item = f64> + Clone {
+    let coarse = (0..90).map(|k| f64::from(k) / 100.0);
+    coarse.chain((0..=800).map(|k| 0.9 + f64::from(k) / 8000.0))
+}
+
 /// A sentence on how a map was followed.
 pub fn provenance(map: &StudiedMap) -> String {
     use crate::reference::height_field::Border;

@@ -16,7 +16,7 @@ const STEPS: usize = 21;
 const HEAT: usize = 32;
 /// Parts of magma that show on white and on black.
 const ON_WHITE: (f32, f32) = (0.12, 0.76);
-const ON_BLACK: (f32, f32) = (0.36, 0.98);
+const ON_BLACK: (f32, f32) = (0.44, 0.98);
 /// Share of magma that stands for the least number.
 const DARKEST: f32 = 0.14;
 /// How many colours of maps `figure.css` has.

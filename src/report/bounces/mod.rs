@@ -7,7 +7,7 @@
 //! term         direct light and first bounce   sum        all bounces together
 //! family       models over all albedos         residuals  what they miss
 //! saturation   what bounces do to colours      pictures   what models make of a map
-//! sweep        amplitudes                      page, tables, methods, files
+//! sweep        amplitudes                      page, tables, methods
 //! ```
 //!
 //! Everything here is a pure function of a [`Study`]: the same study gives the same bytes.
@@ -16,7 +16,6 @@ mod curves;
 mod cut;
 mod decay;
 mod family;
-mod files;
 mod layout;
 mod look;
 mod methods;
@@ -34,7 +33,6 @@ mod tests;
 
 use crate::reference::bounce_fit::{StudiedMap, Study, Term};
 
-pub use files::{errors_csv, fits_json};
 pub use page::page;
 
 /// A drawing that stands alone.

@@ -31,7 +31,7 @@ pub fn figure(study: &Study) -> Figure {
     let top = measured(&mut sheet, study, 316.0);
     let captions = [
         String::from(
-            "All bounces after the direct light have the colour ρ/(1−ρτ), with ρ the albedo of each channel and τ the share of what a bounce leaves that the next ones still move: 0 is one bounce, 1 is no end of them. Upper half of each swatch: as bright as that is beside τ = 1, for one and the same first bounce; lower half: its colour alone, the brightest channel at 1. Saturation: 1 − least/greatest channel, linear.",
+            "All bounces after the direct light have the colour ρ/(1−ρτ), with ρ the albedo of each channel and τ the share of each bounce that the next one brings again at an albedo of 1: 0 is one bounce, 1 is no end of them. Upper half of each swatch: as bright as that is beside τ = 1, for one and the same first bounce; lower half: its colour alone, the brightest channel at 1. Saturation: 1 − least/greatest channel, linear.",
         ),
         String::from(
             "Measured: lines: τ₂ = 1 − F₂/(1−F₀−F₁), what is left after the second bounce, by map; dashed: the published τ = 1 − F₁/(1−F₀). Only where at least 1 % of the light is left to share out.",

@@ -94,7 +94,7 @@ fn sums(sheet: &mut Sheet, study: &Study, first: &StudiedMap, top: f64) {
     };
     let titles = Titles {
         x: Some(OPENNESS),
-        y: Some("ΣE/π, close by"),
+        y: Some(""),
         y_unit: "",
     };
     let svg = &mut sheet.svg;
@@ -104,7 +104,7 @@ fn sums(sheet: &mut Sheet, study: &Study, first: &StudiedMap, top: f64) {
         panel.x.start,
         top - 8.0,
         Anchor::Start,
-        "every map",
+        "every map: ΣE/π, close by",
     );
     let inside = first
         .texels

@@ -33,35 +33,7 @@ pub fn figure(study: &Study) -> Option<Figure> {
         beside: 60.0,
         ..Grid::new(3, y + 24.0, 260.0)
     };
-    let direct = |map: &StudiedMap| points(map, 0);
-    let bounced = |map: &StudiedMap| points(map, 1);
-    let lowest = sweep.iter().flat_map(sums).map(|(_, sum)| sum);
-    let missing = 1.0 - lowest.fold(0.99, f64::min);
-    let panels: [(&str, &dyn Fn(&StudiedMap) -> Vec<(f64, f64)>, (f64, f64)); 3] = [
-        ("direct light E₀/π", &direct, (0.0, 1.05)),
-        ("first bounce E₁/π", &bounced, (0.0, highest(sweep))),
-        (
-            "sum ΣE/π at an albedo of 1, close by",
-            &sums,
-            (1.0 - 1.2 * missing, 1.0 + 0.3 * missing),
-        ),
-    ];
-    for (index, (name, of, ends)) in panels.into_iter().enumerate() {
-        let panel = grid.panel(index, ends);
-        let titles = Titles {
-            x: Some(OPENNESS),
-            y: Some(""),
-            y_unit: "",
-        };
-        panel.draw(&mut sheet.svg, &titles);
-        let (left, top) = (panel.x.start, panel.y.end);
-        sheet
-            .svg
-            .text("panel-title", left, top - 8.0, Anchor::Start, name);
-        for (map, look) in sweep.iter().zip(&looks) {
-            line(&mut sheet.svg, &panel, look, of(map).into_iter(), ends);
-        }
-    }
+    panels(&mut sheet, sweep, &looks, &grid);
     let captions = [
         provenance(first),
         String::from(
@@ -70,6 +42,38 @@ pub fn figure(study: &Study) -> Option<Figure> {
     ];
     let svg = finish(sheet, &captions, grid.bottom(3));
     Some(Figure::new("amplitudes", title, svg))
+}
+
+/// A curve of a map, by openness.
+type Curve = fn(&StudiedMap) -> Vec<(f64, f64)>;
+
+fn panels(sheet: &mut Sheet, sweep: &[StudiedMap], looks: &[String], grid: &Grid) {
+    let lowest = sweep.iter().flat_map(sums).map(|(_, sum)| sum);
+    let missing = 1.0 - lowest.fold(0.99, f64::min);
+    let near = (1.0 - 1.2 * missing, 1.0 + 0.3 * missing);
+    let shown: [(&str, Curve, (f64, f64)); 3] = [
+        ("direct light E₀/π", |map| points(map, 0), (0.0, 1.05)),
+        (
+            "first bounce E₁/π",
+            |map| points(map, 1),
+            (0.0, highest(sweep)),
+        ),
+        ("sum ΣE/π at ρ = 1, close by", sums, near),
+    ];
+    for (index, (name, of, ends)) in shown.into_iter().enumerate() {
+        let panel = grid.panel(index, ends);
+        let titles = Titles {
+            x: Some(OPENNESS),
+            y: Some(""),
+            y_unit: "",
+        };
+        panel.draw(&mut sheet.svg, &titles);
+        let (left, top) = (panel.x.start, panel.y.end);
+        (sheet.svg).text("panel-title", left, top - 8.0, Anchor::Start, name);
+        for (map, look) in sweep.iter().zip(looks) {
+            line(&mut sheet.svg, &panel, look, of(map).into_iter(), ends);
+        }
+    }
 }
 
 fn points(map: &StudiedMap, bounce: usize) -> Vec<(f64, f64)> {

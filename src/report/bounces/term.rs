@@ -125,7 +125,7 @@ fn whole(sheet: &mut Sheet, map: &StudiedMap, bounce: usize, guesses: &[Guess], 
         0 => 1.03,
         _ => {
             let measured = curve(map, bounce).map(|at| at.mean + 1.5 * at.deviation);
-            let said = openness().map(|a| published_first_bounce(a));
+            let said = openness().map(published_first_bounce);
             1.05 * measured.chain(said).fold(1e-3, f64::max)
         }
     };
