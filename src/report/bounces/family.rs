@@ -55,7 +55,8 @@ fn figure(study: &Study, map: &StudiedMap) -> Figure {
             .text("panel-title", left, top - 8.0, Anchor::Start, &name);
         draw(&mut sheet, &panel, map, model);
         if let Some(text) = outside(model) {
-            let (right, bottom) = (panel.x.end - 8.0, panel.y.start);
+            // Left of where the pole is.
+            let (right, bottom) = (panel.x.at(0.92), panel.y.start);
             for (line, text) in text.iter().enumerate() {
                 let y = bottom - 26.0 + 15.0 * line as f64;
                 sheet.svg.text("note", right, y, Anchor::End, text);

@@ -99,7 +99,7 @@ fn guesses(study: &Study, bounce: usize) -> Vec<Guess<'_>> {
 
 fn fit_name(fit: &Fit) -> String {
     if !fit.published.is_empty() {
-        return String::from("the published form, refitted");
+        return String::from("published form, refitted");
     }
     let named = fit.fitted.names.iter().zip(&fit.fitted.values);
     let values: Vec<String> = named
