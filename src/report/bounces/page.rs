@@ -96,7 +96,7 @@ fn simulation(page: &mut String, study: &Study, drawn: &[Figure]) {
     page.push_str("<section>\n<h2>Every bounce</h2>\n");
     tables::maps(
         page,
-        "Maps that light was followed on; bounces end where all that were asked for are made, where one adds less than half a level of 8 bits to every texel (too faint), or where nothing is sent back (dark)",
+        "Maps that light was followed on (amplitude: share of the width; rays: of each texel; end: why there are no more bounces)",
         &study.maps,
     );
     let curves = of(drawn, &["curves--"]);
