@@ -17,6 +17,7 @@ use num_traits::Float;
 
 pub use errors::ModelError;
 pub use greyfield::{COEFFICIENTS, Coefficients};
+pub use published::{direct as published_direct, first_bounce as published_first_bounce};
 
 /// What of a point a model is a function of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]

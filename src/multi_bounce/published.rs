@@ -10,13 +10,13 @@ pub(super) const A: f64 = 27.576_937_094_210_385;
 /// The fit's exponent.
 pub(super) const B: f64 = 3.336_439_200_342_380_4;
 
-/// F₀, the notes' eq. 7.
-pub(super) fn direct<F: Float>(openness: F) -> F {
+/// F₀, the notes' eq. 7, at an openness of 0 to 1: 0 to 1.00614.
+pub fn direct<F: Float>(openness: F) -> F {
     openness * (F::one() + (F::one() - openness).powf(n(0.75)) / n(2.0))
 }
 
-/// F₁, the notes' eq. 11.
-pub(super) fn first_bounce<F: Float>(openness: F) -> F {
+/// F₁, the notes' eq. 11, at an openness of 0 to 1.
+pub fn first_bounce<F: Float>(openness: F) -> F {
     let closed = (F::one() - openness).powf(n(1.5));
     n::<F>(A) * openness * closed * (-n::<F>(B) * openness.powf(n(0.25))).exp()
 }

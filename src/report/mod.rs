@@ -3,13 +3,16 @@
 //! The same analysis gives the same bytes: nothing here reads a clock, and the order of everything
 //! is that of the registry and of the data.
 
+pub mod bounces;
 pub mod canvas;
 pub mod colour_map;
 pub mod cost;
 mod csv;
 pub mod error_picture;
+mod figure;
 mod html;
 mod json;
+mod markup;
 mod methods;
 mod number;
 mod svg;

@@ -106,6 +106,51 @@ impl Svg {
         }
     }
 
+    /// An area with these corners; nothing for fewer than three.
+    pub fn polygon(&mut self, class: &str, corners: &[(f64, f64)]) {
+        if corners.len() > 2 {
+            let points = pairs(corners);
+            let _ = writeln!(
+                self.body,
+                "<polygon class=\"{class}\" points=\"{points}\"/>"
+            );
+        }
+    }
+
+    /// A rectangle of a colour that is data, the same in light and dark.
+    pub fn filled(&mut self, colour: &str, (x, y): (f64, f64), (width, height): (f64, f64)) {
+        let _ = writeln!(
+            self.body,
+            "<rect fill=\"{colour}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
+            n(x),
+            n(y),
+            n(width),
+            n(height)
+        );
+    }
+
+    /// Many dots in one element, round where the class has round line caps.
+    pub fn dots(&mut self, class: &str, points: &[(f64, f64)]) {
+        if points.is_empty() {
+            return;
+        }
+        let dot = |(x, y): &(f64, f64)| format!("M{} {}h0", n(*x), n(*y));
+        let path: String = points.iter().map(dot).collect();
+        let _ = writeln!(self.body, "<path class=\"{class}\" d=\"{path}\"/>");
+    }
+
+    /// A picture inside the drawing, `base64` the bytes of a PNG.
+    pub fn image(&mut self, (x, y): (f64, f64), (width, height): (f64, f64), base64: &str) {
+        let _ = writeln!(
+            self.body,
+            "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" href=\"data:image/png;base64,{base64}\"/>",
+            n(x),
+            n(y),
+            n(width),
+            n(height)
+        );
+    }
+
     /// A mark around a point.
     pub fn mark(&mut self, class: &str, mark: Mark, (x, y): (f64, f64), radius: f64) {
         if mark == Mark::Disc {

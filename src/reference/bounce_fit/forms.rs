@@ -88,6 +88,16 @@ impl Term {
     }
 }
 
+impl Fit {
+    /// The curve at an openness of 0 to 1 with these unknowns: the published or the fitted ones. None
+    /// for the family, which [`Coefficients`] computes.
+    #[must_use]
+    pub fn curve(&self, openness: f64, unknowns: &[f64]) -> Option<f64> {
+        let form = FORMS.iter().find(|form| form.formula == self.form)?;
+        (form.unknowns.len() == unknowns.len()).then(|| (form.value)(openness, unknowns))
+    }
+}
+
 /// Fits the published forms. Every bin of every map counts alike.
 ///
 /// # Errors

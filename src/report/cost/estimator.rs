@@ -1,13 +1,14 @@
 //! The error of a technique beside the part that a better estimator would not make.
 
 use super::CostReport;
-use super::axis::Scale;
 use super::palette::Palette;
-use super::panel::Panel;
 use super::series::{self, is_none, is_of_grid};
-use super::sheet::{Key, MARGIN, Sheet, WIDTH, shortened};
+use super::sheet::finish;
 use crate::cost::configuration::Resolution;
 use crate::cost::row::Row;
+use crate::report::figure::axis::Scale;
+use crate::report::figure::panel::Panel;
+use crate::report::figure::sheet::{Key, MARGIN, Sheet, WIDTH, shortened};
 use crate::report::svg::{Anchor, Svg};
 
 /// The sample count whose nearest is shown.
@@ -80,7 +81,7 @@ pub fn estimator(report: &CostReport) -> String {
     let note = format!(
         "RMSE of k_A at the sample count nearest to {SAMPLES} of each technique, full resolution, widest blur."
     );
-    sheet.finish(report, &rows, &[&note], top - 8.0)
+    finish(sheet, report, &rows, &[&note], top - 8.0)
 }
 
 fn numbers(row: &Row) -> [f64; 3] {

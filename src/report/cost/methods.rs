@@ -1,7 +1,7 @@
 //! What the numbers of the page are.
 
 use super::CostReport;
-use super::markup::terms;
+use crate::report::markup::terms;
 
 /// The section on how it was measured.
 pub fn methods(page: &mut String, report: &CostReport) {

@@ -2,9 +2,8 @@
 //! and of what people chose.
 //!
 //! ```text
-//! palette   one colour and mark a technique    axis       scales with their ticks
-//! panel     one coordinate system              labels     names without overlap
-//! sheet     title, keys, provenance            series     rows as lines, the front
+//! palette   one colour and mark a technique    series     rows as lines, the front
+//! sheet     captions with provenance           words      sentences
 //! plane, estimator, scaling, preferences       one figure each
 //! page      the page                           tables     its tables
 //! knee      where the front bends              table      CSV for other programs
@@ -12,16 +11,11 @@
 //!
 //! Everything here is a pure function of a [`CostReport`]: the same rows give the same bytes.
 
-mod axis;
 mod estimator;
 mod knee;
-mod labels;
-mod markup;
 mod methods;
-mod numbers;
 mod page;
 mod palette;
-mod panel;
 mod plane;
 mod preferences;
 mod scaling;
@@ -37,6 +31,7 @@ use crate::cost::row::Row;
 use crate::cost::scaling::{Exponent, ScalingRow};
 use crate::cost::store::SweepRecord;
 use crate::cost::votes::Preference;
+use crate::report::figure::words::distinct;
 
 pub use estimator::estimator;
 pub use knee::knee;
@@ -118,11 +113,11 @@ impl<'a> CostReport<'a> {
 
     /// Scenes of the sweep, in the order of the rows.
     fn scenes(&self) -> Vec<&'a str> {
-        series::distinct(self.rows.iter().map(|row| row.scene.as_str()))
+        distinct(self.rows.iter().map(|row| row.scene.as_str()))
     }
 
     /// Scenes whose growth was measured.
     fn scaling_scenes(&self) -> Vec<&'a str> {
-        series::distinct(self.scaling.iter().map(|row| row.scene.as_str()))
+        distinct(self.scaling.iter().map(|row| row.scene.as_str()))
     }
 }

@@ -5,14 +5,15 @@ use std::fmt::Write as _;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-use super::markup::{Column, figure, paragraph, table};
-use super::numbers::{fixed, ms};
-use super::series::{self, distinct, front_of, is_none};
+use super::series::{self, front_of, is_none};
 use super::{
     CostReport, estimator, flip_plane, knee, methods, plane, preferences, scaling, tables, words,
 };
 use crate::cost::row::Row;
 use crate::report::VERSION;
+use crate::report::figure::numbers::{fixed, ms};
+use crate::report::figure::words::distinct;
+use crate::report::markup::{Column, figure, paragraph, table};
 use crate::report::svg::escape;
 
 /// What analysis pages look like, so that these look the same.

@@ -6,7 +6,8 @@
 //! alone, so each has a shape, and every line has its name beside it.
 
 use super::CostReport;
-use super::series::{distinct, is_none};
+use super::series::is_none;
+use crate::report::figure::words::distinct;
 use crate::report::svg::Mark;
 
 /// How many colours `figure.css` has.

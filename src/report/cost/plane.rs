@@ -2,14 +2,15 @@
 //! beats, what no occlusion at all costs, and what the depth buffer cannot know.
 
 use super::CostReport;
-use super::axis::Scale;
-use super::labels::{Area, Label, Placer};
 use super::palette::Palette;
-use super::panel::{Panel, Titles};
 use super::series::{self, Line, front_of, is_none, is_of_grid};
-use super::sheet::{Key, MARGIN, Sheet, WIDTH, shortened};
+use super::sheet::finish;
 use crate::cost::configuration::Resolution;
 use crate::cost::row::Row;
+use crate::report::figure::axis::Scale;
+use crate::report::figure::labels::{Area, Label, Placer};
+use crate::report::figure::panel::{Panel, Titles};
+use crate::report::figure::sheet::{Key, MARGIN, Sheet, WIDTH, shortened};
 use crate::report::svg::{Anchor, Svg};
 
 /// Left end of the axes.
@@ -49,7 +50,7 @@ pub fn plane(report: &CostReport, scene: &str) -> String {
         &what,
         (is_log(&rows, &what), true),
     );
-    sheet.finish(report, &rows, &[NOTE], 540.0)
+    finish(sheet, report, &rows, &[NOTE], 540.0)
 }
 
 /// Time against what can be seen in one scene: mean FLIP (0 to 1) against the image with the
@@ -91,7 +92,7 @@ pub fn flip_plane(report: &CostReport, scene: &str) -> String {
         );
         top += HIGH + 54.0;
     }
-    sheet.finish(report, &together, &[NOTE], top + 2.0)
+    finish(sheet, report, &together, &[NOTE], top + 2.0)
 }
 
 /// What is drawn upwards.

@@ -1,13 +1,15 @@
 //! What people chose, beside what the images cost.
 
 use super::CostReport;
-use super::axis::Scale;
-use super::labels::{Area, Label, Placer};
 use super::palette::{Look, Palette};
-use super::panel::Panel;
-use super::series::{distinct, is_none};
-use super::sheet::{MARGIN, Sheet, WIDTH, shortened};
+use super::series::is_none;
+use super::sheet::finish;
 use crate::cost::votes::{Preference, Side};
+use crate::report::figure::axis::Scale;
+use crate::report::figure::labels::{Area, Label, Placer};
+use crate::report::figure::panel::Panel;
+use crate::report::figure::sheet::{MARGIN, Sheet, WIDTH, shortened};
+use crate::report::figure::words::distinct;
 use crate::report::svg::{Anchor, Svg};
 
 const LEFT: f64 = 66.0;
@@ -59,7 +61,7 @@ pub fn preferences(report: &CostReport) -> String {
     let rows: Vec<_> = report.rows.iter().collect();
     let note =
         "Images that take no time stand at 0; those of about one time are drawn side by side.";
-    sheet.finish(report, &rows, &[note], top - 14.0)
+    finish(sheet, report, &rows, &[note], top - 14.0)
 }
 
 fn capitalised(text: &str) -> String {

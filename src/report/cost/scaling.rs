@@ -1,14 +1,15 @@
 //! How time grows with pixels, samples, reach and triangles.
 
 use super::CostReport;
-use super::axis::Scale;
-use super::labels::spread;
-use super::numbers::fixed;
 use super::palette::Palette;
-use super::panel::{Panel, Titles};
-use super::series::distinct;
-use super::sheet::{MARGIN, Sheet, WIDTH, shortened};
+use super::sheet::finish;
 use crate::cost::scaling::{Axis, Exponent, ScalingRow};
+use crate::report::figure::axis::Scale;
+use crate::report::figure::labels::spread;
+use crate::report::figure::numbers::fixed;
+use crate::report::figure::panel::{Panel, Titles};
+use crate::report::figure::sheet::{MARGIN, Sheet, WIDTH, shortened};
+use crate::report::figure::words::distinct;
 use crate::report::svg::{Anchor, Svg};
 
 const LEFT: f64 = 58.0;
@@ -50,7 +51,13 @@ pub fn scaling(report: &CostReport, scene: &str) -> String {
         draw(svg, &panel, &lines, &exponents, &palette);
     }
     let note = "Times without blur. Dotted: growth in proportion.";
-    sheet.finish(report, &[], &[note], 86.0 + 2.0 * (HIGH + 78.0) - 22.0)
+    finish(
+        sheet,
+        report,
+        &[],
+        &[note],
+        86.0 + 2.0 * (HIGH + 78.0) - 22.0,
+    )
 }
 
 fn title(axis: Axis) -> &'static str {

@@ -3,6 +3,7 @@
 use crate::cost::configuration::Resolution;
 use crate::cost::front::front;
 use crate::cost::row::Row;
+use crate::report::figure::words::distinct;
 
 /// Registry name of no occlusion at all.
 pub const NONE: &str = "none";
@@ -10,17 +11,6 @@ pub const NONE: &str = "none";
 /// Whether a technique is no occlusion at all, which takes no time.
 pub fn is_none(technique: &str) -> bool {
     technique == NONE
-}
-
-/// Each name once, in the order of first appearance.
-pub fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    let mut found: Vec<&str> = Vec::new();
-    for name in names {
-        if !found.contains(&name) {
-            found.push(name);
-        }
-    }
-    found
 }
 
 /// The rows of a scene under one lighting that can be drawn: finite times and errors.

@@ -1,97 +1,13 @@
-//! What all figures have: a size, a title, keys to their lines, and where the numbers come from.
+//! What figures of cost have below them: where the numbers come from.
 
 use super::CostReport;
-use super::words::{provenance, wrapped};
+use super::words::provenance;
 use crate::cost::row::Row;
-use crate::report::svg::{Anchor, Mark, Svg, text_width};
+use crate::report::figure::sheet::Sheet;
 
-/// Width of every figure.
-pub const WIDTH: f64 = 860.0;
-/// Room at the right.
-pub const MARGIN: f64 = 14.0;
-
-/// Letters of captions, and how far their lines lie apart.
-const CAPTION: (f64, f64) = (11.0, 15.0);
-
-const STYLE: &str = include_str!("figure.css");
-
-/// A figure under way.
-pub struct Sheet {
-    /// What is drawn.
-    pub svg: Svg,
-    title: String,
-}
-
-/// What a line in a figure stands for.
-pub enum Key {
-    /// A line of a class.
-    Line(&'static str),
-    /// A line of a class with a mark of another on it.
-    Marked(&'static str, &'static str),
-    /// A mark of a class.
-    Mark(&'static str),
-}
-
-impl Sheet {
-    /// With its title at the top.
-    pub fn new(title: &str) -> Self {
-        let mut svg = Svg::new(WIDTH, 0.0);
-        let shown = shortened(title, 15.0, WIDTH - 2.0 * MARGIN);
-        svg.text("title", MARGIN, 24.0, Anchor::Start, &shown);
-        Self {
-            svg,
-            title: title.to_owned(),
-        }
-    }
-
-    /// What the lines stand for, in a row from the left.
-    pub fn keys(&mut self, left: f64, y: f64, keys: &[(Key, &str)]) {
-        let mut x = left;
-        let middle = y - 4.0;
-        for (key, text) in keys {
-            let ends = [(x, middle), (x + 28.0, middle)];
-            let centre = (x + 14.0, middle);
-            match key {
-                Key::Line(class) => self.svg.polyline(class, &ends),
-                Key::Marked(line, mark) => {
-                    self.svg.polyline(line, &ends);
-                    self.svg.mark(mark, Mark::Disc, centre, 3.5);
-                }
-                Key::Mark(class) => self.svg.mark(class, Mark::Disc, centre, 4.0),
-            }
-            self.svg.text("key", x + 34.0, y, Anchor::Start, text);
-            x += 34.0 + text_width(text, 12.0) + 14.0;
-        }
-    }
-
-    /// The figure as a file: notes, then where the numbers come from, below what is drawn.
-    pub fn finish(mut self, report: &CostReport, rows: &[&Row], notes: &[&str], y: f64) -> String {
-        let (size, step) = CAPTION;
-        // Sentences are narrower than names: their letters are small ones and spaces.
-        let columns = ((WIDTH - 2.0 * MARGIN) / (0.95 * text_width("x", size))) as usize;
-        let mut y = y;
-        let notes = notes.iter().map(|note| (*note).to_owned());
-        for sentence in notes.chain(provenance(report, rows)) {
-            for line in wrapped(&sentence, columns) {
-                self.svg.text("caption", MARGIN, y, Anchor::Start, &line);
-                y += step;
-            }
-        }
-        self.svg.set_height(y);
-        self.svg.finish_alone("cost", &self.title, STYLE)
-    }
-}
-
-/// A text that is not wider than so much, with … where something is left out.
-pub fn shortened(text: &str, size: f64, width: f64) -> String {
-    let mut shown = text.to_owned();
-    while text_width(&shown, size) > width && shown.pop().is_some() {
-        let kept = shown.trim_end_matches('…').to_owned();
-        let kept: String = kept
-            .chars()
-            .take(kept.chars().count().saturating_sub(1))
-            .collect();
-        shown = kept + "…";
-    }
-    shown
+/// The figure as a file: notes, then where the numbers come from, below what is drawn.
+pub fn finish(sheet: Sheet, report: &CostReport, rows: &[&Row], notes: &[&str], y: f64) -> String {
+    let notes = notes.iter().map(|note| (*note).to_owned());
+    let captions: Vec<String> = notes.chain(provenance(report, rows)).collect();
+    sheet.finish("cost", &captions, y, "")
 }

@@ -1,12 +1,12 @@
 //! The tables of the page, with as many digits as people read.
 
-use super::markup::{Column, table};
-use super::numbers::{MISSING, fixed, ms, or_missing, significant};
 use super::scaling::exponent;
 use super::series::{self, front_of};
 use super::{CostReport, knee};
 use crate::cost::row::Row;
 use crate::cost::votes::Preference;
+use crate::report::figure::numbers::{MISSING, fixed, ms, or_missing, significant};
+use crate::report::markup::{Column, table};
 
 /// The front of a scene in time and RMSE.
 pub fn front(page: &mut String, report: &CostReport, scene: &str) {

@@ -1,10 +1,9 @@
 //! What figures and page say in words: where the numbers come from, and what they are good for.
 
 use super::CostReport;
-use super::series::distinct;
 use crate::cost::row::Row;
 use crate::cost::store::About;
-use crate::report::number::width;
+use crate::report::figure::words::distinct;
 
 /// Most runs that a figure names.
 const MOST_RUNS: usize = 3;
@@ -82,52 +81,4 @@ fn runs(report: &CostReport, rows: &[&Row]) -> Vec<String> {
         found.push(format!("… and {} runs more.", known.len() - MOST_RUNS));
     }
     found
-}
-
-/// A text in lines of so many columns; a word that is longer is broken.
-pub fn wrapped(text: &str, columns: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
-        let mut rest = word;
-        while let Some(line) = lines.last_mut() {
-            let space = usize::from(!line.is_empty());
-            if width(line) + space + width(rest) <= columns {
-                line.extend(std::iter::repeat_n(' ', space));
-                line.push_str(rest);
-                break;
-            }
-            if line.is_empty() {
-                let end = (rest.char_indices().nth(columns / 2)).map_or(rest.len(), |(at, _)| at);
-                let (head, tail) = rest.split_at(end);
-                line.push_str(head);
-                rest = tail;
-                if rest.is_empty() {
-                    break;
-                }
-            }
-            lines.push(String::new());
-        }
-    }
-    lines
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    #[test]
-    fn words_stay_whole_where_they_can() {
-        assert_eq!(wrapped("one two three", 8), ["one two", "three"]);
-        assert_eq!(wrapped("abcdefghijk", 8).concat(), "abcdefghijk");
-    }
-
-    proptest! {
-        #[test]
-        fn no_line_is_wider(text in "\\PC{0,200}") {
-            for line in wrapped(&text, 10) {
-                prop_assert!(width(&line) <= 10, "{line:?}");
-            }
-        }
-    }
 }
