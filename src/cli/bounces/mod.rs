@@ -109,7 +109,7 @@ pub fn run(args: &BouncesArgs, verbosity: Verbosity) -> Result<(), Failure> {
         maps.push(followed.studied(held_out));
     }
     let study = study(args, maps, pictures, verbosity)?;
-    write::study(&folder, &study, args)?;
+    write::study(&folder, &study)?;
     write::say(&study);
     println!("in {}", folder.display());
     Ok(())

@@ -11,6 +11,7 @@ use crate::cli::Failure;
 use crate::multi_bounce::Coefficients;
 use crate::reference::bounce_fit::{ColourPicture, Fit, MapError, Study};
 use crate::reference::height_field::{Border, Stopped, curves};
+use crate::report::bounces as report;
 use crate::scene::srgb;
 use crate::stimulus::files::{encode_occlusion, write_whole};
 
@@ -97,7 +98,7 @@ pub fn map(folder: &Path, followed: &Followed, args: &BouncesArgs) -> Result<(),
 }
 
 /// Errors, fits, pictures in colour, figures and the page.
-pub fn study(folder: &Path, study: &Study, _args: &BouncesArgs) -> Result<(), Failure> {
+pub fn study(folder: &Path, study: &Study) -> Result<(), Failure> {
     table(&folder.join("errors.csv"), &study.errors)?;
     if !study.fits.is_empty() {
         let named = |held_out: bool| {
@@ -118,7 +119,22 @@ pub fn study(folder: &Path, study: &Study, _args: &BouncesArgs) -> Result<(), Fa
         let path = folder.join(format!("colour-{}.png", picture.name));
         write_whole(&path, &encode_colour(picture)?)?;
     }
-    Ok(())
+    for figure in report::figures(study) {
+        let path = folder.join(format!("{}.svg", figure.stem));
+        write_whole(&path, figure.svg.as_bytes())?;
+    }
+    let page = report::page(study, &command());
+    Ok(write_whole(&folder.join("bounces.html"), page.as_bytes())?)
+}
+
+/// The command as it was given, without the path of the program.
+fn command() -> String {
+    let arguments = std::env::args().skip(1);
+    ["greyfield".to_owned()]
+        .into_iter()
+        .chain(arguments)
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 /// A picture as an sRGB PNG of 8 bits; the sky is white.
