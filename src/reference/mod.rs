@@ -5,16 +5,19 @@
 //! directions and the same weighting: what the second lacks against the first is information
 //! that a depth buffer does not hold. [`estimate`] asks either at every visible point.
 
+pub mod bent_cone;
 pub mod bvh;
 pub mod directions;
 mod error;
 pub mod height_field;
+pub mod lit;
 mod occlusion;
 mod ray_traced;
 mod screen_space;
 pub mod sobol;
 mod thinned;
 
+pub use bent_cone::{BentCone, Opening};
 pub use bvh::SceneBvh;
 pub use directions::Weighting;
 pub use error::ReferenceError;

@@ -21,6 +21,8 @@ pub(in super::super) struct LightInputs<'a> {
     pub occlusion: Option<&'a wgpu::TextureView>,
     /// What the ambient light changes by, where the technique says it by direction.
     pub directional: Option<&'a wgpu::TextureView>,
+    /// What is closed by direction, where the environment's light comes in through the bent cone.
+    pub cone: Option<&'a wgpu::TextureView>,
     /// How much of the directional light arrives.
     pub visibility: Option<&'a wgpu::TextureView>,
     /// The environment; what no pass reads is absent.
@@ -66,7 +68,10 @@ impl<'a> LightInputs<'a> {
     /// matte surfaces.
     fn occlusion(&self, kind: PassKind, bindings: Bindings<'a>) -> Bindings<'a> {
         match (kind, self.directional) {
-            (PassKind::Reflections, _) | (_, None) => bindings.texture_if_any(5, self.occlusion),
+            (PassKind::Reflections, _) => bindings.texture_if_any(5, self.occlusion),
+            (_, None) => bindings
+                .texture_if_any(5, self.occlusion)
+                .texture_if_any(15, self.cone),
             (_, Some(directional)) => bindings.texture(6, directional, false),
         }
     }
@@ -115,9 +120,10 @@ impl<'a> LightInputs<'a> {
             ),
             (
                 "occluded_ambient",
-                match self.directional {
-                    None => include_str!("../shaders/lighting/occluded_alike.wgsl"),
-                    Some(_) => include_str!("../shaders/lighting/occluded_by_direction.wgsl"),
+                match (self.directional, self.cone) {
+                    (Some(_), _) => include_str!("../shaders/lighting/occluded_by_direction.wgsl"),
+                    (None, Some(_)) => include_str!("../shaders/lighting/occluded_in_cone.wgsl"),
+                    (None, None) => include_str!("../shaders/lighting/occluded_alike.wgsl"),
                 },
             ),
             (

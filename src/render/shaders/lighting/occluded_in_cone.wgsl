@@ -1,0 +1,22 @@
+// The environment's light comes in through the bent cone; what is constant beside it is dimmed by k_A, as
+// it is the same through any cone.
+//!use light
+//!use point
+//!use gather
+//!use diffuse
+//!use bent_cone
+//!use computed_occlusion
+//!use baked_occlusion
+@group(0) @binding(15) var cone_texture: texture_2d<f32>;
+
+fn occluded_ambient(point: Point) -> vec3f {
+    let normal = (frame.view * vec4f(point.geometric_normal, 0.0)).xyz;
+    let last = vec2i(frame.image_px) - 1;
+    let closed = gathered(cone_texture, point.texel, point.view_m, normal, frame.samples, last).xyz;
+    let moment = point.normal * (2.0 / 3.0) - light.occlusion_weight * closed;
+    let open = computed_occlusion(point);
+    let baked = baked_occlusion(point);
+    let albedo = diffuse_albedo(point);
+    return open * baked * (albedo * light.constant_ambient.rgb)
+        + baked * albedo * (irradiance_within(open, moment) / 3.14159265);
+}
