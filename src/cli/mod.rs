@@ -2,6 +2,7 @@
 
 mod advise;
 mod analyse;
+mod bent_cones;
 mod bounces;
 mod browse;
 mod check;
@@ -44,6 +45,7 @@ enum Command {
     Render(render::RenderArgs),
     Truth(truth::Truth),
     Bounces(bounces::BouncesArgs),
+    BentCones(bent_cones::BentCones),
     Model(model::ModelArgs),
     Techniques(techniques::Techniques),
     Check(check::Check),
@@ -125,6 +127,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Render(args) => render::run(&args, verbosity),
         Command::Truth(args) => truth::run(&args, verbosity),
         Command::Bounces(args) => bounces::run(&args, verbosity),
+        Command::BentCones(args) => bent_cones::run(&args, verbosity),
         Command::Model(args) => model::run(&args, verbosity),
         Command::Techniques(args) => techniques::run(&args),
         Command::Check(args) => check::run(&args, verbosity),

@@ -26,10 +26,7 @@ const PARTS: &[(&str, &str)] = &[
         "irradiance",
         include_str!("shaders/lighting/irradiance.wgsl"),
     ),
-    (
-        "bent_cone",
-        include_str!("shaders/lighting/bent_cone.wgsl"),
-    ),
+    ("bent_cone", include_str!("shaders/lighting/bent_cone.wgsl")),
     ("diffuse", include_str!("shaders/lighting/diffuse.wgsl")),
     ("radiance", include_str!("shaders/lighting/radiance.wgsl")),
     (

@@ -46,14 +46,16 @@ impl Planner<'_> {
         let is_on = settings.is(technique::BENT_CONE, "on");
         settings.technique.gives_cone.then(|| {
             match (request.lights_through_cone(), request.keeps_cone) {
-                (true, _) => Ok(String::from("the environment's light comes in through its bent cone")),
-                (false, true) => Ok(String::from("its bent cone is kept to be read")),
-                (false, false) if is_on => {
-                    Err(String::from("constant ambient light is the same through any cone"))
-                }
-                (false, false) if request.has_directional() => Err(String::from(
-                    "the technique answers by direction already",
+                (true, _) => Ok(String::from(
+                    "the environment's light comes in through its bent cone",
                 )),
+                (false, true) => Ok(String::from("its bent cone is kept to be read")),
+                (false, false) if is_on => Err(String::from(
+                    "constant ambient light is the same through any cone",
+                )),
+                (false, false) if request.has_directional() => {
+                    Err(String::from("the technique answers by direction already"))
+                }
                 (false, false) => Err(String::from("the technique's `bent_cone` is off")),
             }
         })

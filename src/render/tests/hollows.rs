@@ -47,10 +47,13 @@ impl Hollow {
         request
     }
 
-    /// The largest difference from what is exact, over its places.
-    fn worst(&self, technique: &Settings) -> f32 {
-        let request = self.request(technique.clone());
-        let occlusion = draw(&self.geometry, &request).occlusion.unwrap();
+    /// The largest difference from what is exact, over its places: of what is open, and of the mean of what
+    /// is closed, if the technique gives one.
+    fn worst(&self, technique: &Settings) -> (f32, Option<f32>) {
+        let mut request = self.request(technique.clone());
+        request.keeps_cone = true;
+        let frame = draw(&self.geometry, &request);
+        let occlusion = frame.occlusion.unwrap();
         let differences = self.places.iter().filter_map(|place| {
             let exact = match technique.technique.weighting {
                 Weighting::Uniform => place.uniform?,
@@ -63,7 +66,19 @@ impl Hollow {
             let mean = place.points.iter().map(at).sum::<f32>() / place.points.len() as f32;
             Some((mean - exact).abs())
         });
-        differences.fold(0.0, f32::max)
+        let worst = differences.fold(0.0, f32::max);
+        let bent = |closed: Vec<Vec3>| {
+            let differences = self.places.iter().filter_map(|place| {
+                let at = |point: &Vec3| {
+                    let (x, y) = pixel_of(&request, *point);
+                    closed[(y * request.width_px + x) as usize]
+                };
+                let mean = place.points.iter().map(at).sum::<Vec3>() / place.points.len() as f32;
+                Some((mean - place.closed?).length())
+            });
+            differences.fold(0.0, f32::max)
+        };
+        (worst, frame.closed_directions.map(bent))
     }
 }
 
@@ -227,44 +242,17 @@ fn every_technique_closes_hollows_within_its_bound() {
     let mut beyond = Vec::new();
     for technique in TECHNIQUES.iter().filter(|t| t.shader.is_some()) {
         for (hollow, bound) in hollows.iter().zip(bounds(technique.name)) {
-            let worst = hollow.worst(&fine(technique, hollow));
+            let (worst, bent) = hollow.worst(&fine(technique, hollow));
             println!(
-                "{:<10} {:<5} {worst:.4} of {bound}",
+                "{:<10} {:<5} {worst:.4} of {bound}, closed directions {bent:?}",
                 technique.name, hollow.name
             );
-            if worst > bound {
+            assert_eq!(bent.is_some(), technique.gives_cone);
+            // A vector of at most 2/3 is no farther off than k_A.
+            if worst > bound || bent.is_some_and(|bent| bent > bound) {
                 beyond.push((technique.name, hollow.name, worst, bound));
             }
         }
     }
     assert!(beyond.is_empty(), "{beyond:?}");
-}
-
-/// What is closed by direction, beside the wall and in the pit, and so the bent cone: every technique that
-/// gives one, within its bound.
-#[test]
-fn what_is_closed_lies_where_it_is() {
-    for technique in TECHNIQUES.iter().filter(|t| t.gives_cone) {
-        for (hollow, is_pit) in [(beside_a_wall(), false), (in_a_pit(), true)] {
-            let mut request = hollow.request(fine(technique, &hollow));
-            request.keeps_cone = true;
-            let frame = draw(&hollow.geometry, &request);
-            let found = frame.closed_directions.unwrap();
-            for place in &hollow.places {
-                let at = |point: &Vec3| {
-                    let (x, y) = pixel_of(&request, *point);
-                    found[(y * request.width_px + x) as usize]
-                };
-                let mean = place.points.iter().map(at).sum::<Vec3>() / place.points.len() as f32;
-                let off = (mean - place.closed.unwrap()).length();
-                // `ssdo` flies over what is near: by as much as its k_A is off.
-                let bound = match (technique.name, is_pit) {
-                    ("ssdo", pit) => [0.25, 0.3][usize::from(pit)],
-                    (_, _) => 0.015,
-                };
-                println!("{} {} {off:.4} {mean}", technique.name, hollow.name);
-                assert!(off < bound, "{} {}: {mean}", technique.name, hollow.name);
-            }
-        }
-    }
 }

@@ -12,9 +12,9 @@ use crate::render::shader;
 use crate::render::technique::SHARED_WGSL;
 
 /// WGSL, and the parameters it reads.
-struct Source {
-    wgsl: &'static str,
-    params: String,
+pub(super) struct Source {
+    pub wgsl: &'static str,
+    pub params: String,
 }
 
 impl Source {
@@ -25,14 +25,14 @@ impl Source {
         }
     }
 
-    fn of_technique(name: &str) -> Self {
+    pub fn of_technique(name: &str) -> Self {
         Self::of(&Settings::from_label(name).unwrap())
     }
 }
 
 /// Runs WGSL statements that turn `x: vec4f` into `y: vec4f`, with all that `source` declares, on each input.
 /// `bound` are uniforms that those functions read, by binding.
-fn on_gpu(
+pub(super) fn on_gpu(
     source: &Source,
     statements: &str,
     bound: &[(u32, &[u8])],
@@ -138,12 +138,12 @@ fn twin(@builtin(global_invocation_id) id: vec3u) {
     bytemuck::pod_collect_to_vec(&bytes)
 }
 
-fn grid(low: f32, high: f32, steps: usize) -> impl Iterator<Item = f32> + Clone {
+pub(super) fn grid(low: f32, high: f32, steps: usize) -> impl Iterator<Item = f32> + Clone {
     (0..=steps).map(move |i| low + (high - low) * i as f32 / steps as f32)
 }
 
 /// Simpson's rule.
-fn integral(from: f64, to: f64, value: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn integral(from: f64, to: f64, value: impl Fn(f64) -> f64) -> f64 {
     const STEPS: usize = 512;
     let h = (to - from) / STEPS as f64;
     let sum: f64 = (0..=STEPS)
