@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::CostError;
-use crate::render::technique::{Settings, SettingsError, TECHNIQUES, Technique, find};
+use crate::render::technique::{
+    INTER_REFLECTION, Settings, SettingsError, TECHNIQUES, Technique, find,
+};
 use crate::scene::SceneConfig;
 
 /// At which resolution a technique runs.
@@ -188,6 +190,11 @@ pub fn of_scene(scene: &SceneConfig, technique: &Technique) -> Result<Settings, 
     let values = scene.occlusion.techniques.get(technique.name);
     for (parameter, value) in values.into_iter().flatten() {
         settings.set(parameter, value.get_ref().clone())?;
+    }
+    if let Some(model) = &scene.occlusion.inter_reflection
+        && !values.is_some_and(|values| values.contains_key(INTER_REFLECTION))
+    {
+        settings.take_inter_reflection(model.get_ref())?;
     }
     Ok(settings)
 }

@@ -37,6 +37,9 @@ pub struct Coefficients {
     pub f: f64,
 }
 
+/// Steps to the inverse of F₀: each takes off three quarters of the error or more.
+const INVERSE_STEPS: usize = 8;
+
 /// Fitted to height fields; see docs/bounces.md for which, and for those it was tried on.
 pub const COEFFICIENTS: Coefficients = Coefficients {
     k0: 0.80,
@@ -58,6 +61,23 @@ impl Coefficients {
         [direct, first, n::<F>(self.f) + later]
     }
 
+    /// F₀: the cosine-weighted openness that belongs to a uniform one.
+    #[must_use]
+    pub fn cosine_of<F: Float>(&self, uniform: F) -> F {
+        let [direct, ..] = self.terms(unit(uniform));
+        direct
+    }
+
+    /// The uniform openness that belongs to a cosine-weighted one: the inverse of F₀, as the fixed
+    /// point of α = 1 − (1−k_A)^(1/(k₀ + k₁ α)), whose slope is below e⁻¹ k₁/(k₀ + k₁ α).
+    #[must_use]
+    pub fn uniform_of<F: Float>(&self, cosine: F) -> F {
+        let closed = F::one() - unit(cosine);
+        (0..INVERSE_STEPS).fold(F::one() - closed, |alpha, _| {
+            F::one() - closed.powf((n::<F>(self.k0) + n::<F>(self.k1) * alpha).recip())
+        })
+    }
+
     /// E/E₀ at a uniform openness and an albedo; both are brought to 0 to 1.
     #[must_use]
     pub fn value<F: Float>(&self, openness: F, albedo: F) -> F {
@@ -68,7 +88,35 @@ impl Coefficients {
         direct + (F::one() - direct) * indirect
     }
 
-    /// The model with these coefficients, in WGSL: `direct_light` is F₀, and `openness_of` its inverse.
+    /// [`cosine_of`](Self::cosine_of) in WGSL.
+    pub(super) fn cosine_of_wgsl(&self) -> String {
+        let Self { k0, k1, .. } = self;
+        format!(
+            "fn cosine_of(openness: f32) -> f32 {{
+    let a = clamp(openness, 0.0, 1.0);
+    return 1.0 - pow(1.0 - a, {k0:?} + {k1:?} * a);
+}}
+"
+        )
+    }
+
+    /// [`uniform_of`](Self::uniform_of) in WGSL.
+    pub(super) fn uniform_of_wgsl(&self) -> String {
+        let Self { k0, k1, .. } = self;
+        format!(
+            "fn uniform_of(openness: f32) -> f32 {{
+    let k = clamp(openness, 0.0, 1.0);
+    var a = k;
+    for (var i = 0; i < {INVERSE_STEPS}; i++) {{
+        a = 1.0 - pow(1.0 - k, 1.0 / ({k0:?} + {k1:?} * a));
+    }}
+    return a;
+}}
+"
+        )
+    }
+
+    /// The model with these coefficients, in WGSL.
     fn wgsl(&self) -> String {
         let Self {
             k0,

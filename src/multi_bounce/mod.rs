@@ -62,6 +62,38 @@ pub fn find(name: &str) -> Option<&'static Model> {
     MODELS.iter().copied().find(|model| model.name == name)
 }
 
+impl Model {
+    /// E/E₀ where what is known is one or the other openness. What the model does not take is
+    /// brought to what it does by our own direct term, F₀ = k_A.
+    #[must_use]
+    pub fn value(&self, given: Openness, openness: f64, albedo: f64) -> f64 {
+        let openness = match (given, self.openness) {
+            (Openness::Cosine, Openness::Uniform) => COEFFICIENTS.uniform_of(openness),
+            (Openness::Uniform, Openness::Cosine) => COEFFICIENTS.cosine_of(openness),
+            _ => openness,
+        };
+        (self.f64)(openness, albedo)
+    }
+
+    /// The same in WGSL: `fn inter_reflected(openness: f32, albedo: f32) -> f32`.
+    #[must_use]
+    pub fn wgsl_given(&self, given: Openness) -> String {
+        let (convert, openness) = match (given, self.openness) {
+            (Openness::Cosine, Openness::Uniform) => {
+                (COEFFICIENTS.uniform_of_wgsl(), "uniform_of(openness)")
+            }
+            (Openness::Uniform, Openness::Cosine) => {
+                (COEFFICIENTS.cosine_of_wgsl(), "cosine_of(openness)")
+            }
+            _ => (String::new(), "openness"),
+        };
+        format!(
+            "{}{convert}fn inter_reflected(openness: f32, albedo: f32) -> f32 {{ return multi_bounce({openness}, albedo); }}\n",
+            (self.wgsl)()
+        )
+    }
+}
+
 /// A number as a float of either width.
 fn number<F: Float>(value: f64) -> F {
     // Both f32 and f64 take any f64, rounded.

@@ -161,6 +161,24 @@ fn every_half_float_is_whole() {
     }
 }
 
+/// From one openness to the other and back.
+#[test]
+fn either_openness_leads_to_the_other() {
+    for alpha in levels() {
+        let back = COEFFICIENTS.uniform_of(COEFFICIENTS.cosine_of(alpha));
+        assert!((back - alpha).abs() < 1e-4, "{alpha}: {back}");
+    }
+    let greyfield = find("greyfield").unwrap();
+    for level in levels() {
+        // Direct light that is known is kept.
+        let direct = greyfield.value(Openness::Cosine, level, 0.0);
+        assert!((direct - level).abs() < 1e-4, "{level}: {direct}");
+    }
+    // Nothing blocked stays nothing blocked, bit for bit.
+    assert_eq!(COEFFICIENTS.uniform_of(1.0_f32), 1.0);
+    assert_eq!(COEFFICIENTS.cosine_of(1.0_f32), 1.0);
+}
+
 proptest! {
     #[test]
     fn both_widths_agree(alpha in 0.0_f32..=1.0, rho in 0.0_f32..=1.0) {

@@ -6,6 +6,7 @@
 //! that a depth buffer does not hold. [`estimate`] asks either at every visible point.
 
 pub mod bent_cone;
+pub mod bounce_fit;
 pub mod bvh;
 pub mod directions;
 mod error;

@@ -118,6 +118,8 @@ struct Shading<'a> {
     directional: Option<Estimate>,
     /// What is closed by direction, where the frame has the bent cone.
     cone: Option<Estimate>,
+    /// The WGSL of light between surfaces, where it is asked for.
+    inter_reflection: Option<String>,
     radiance: Option<wgpu::TextureView>,
     image: wgpu::TextureView,
 }
@@ -166,6 +168,10 @@ impl<'a> Shading<'a> {
             cone: (request.has_cone())
                 .then(|| estimate("bent cone", Formats::CONE))
                 .flatten(),
+            inter_reflection: request
+                .occlusion
+                .inter_reflection()
+                .map(|(model, openness)| model.wgsl_given(openness)),
             radiance: plan
                 .has(PassKind::Ambient)
                 .then(|| target(gpu, "radiance", request.shaded_size(), Formats::RADIANCE)),
@@ -319,6 +325,7 @@ impl<'a> Shading<'a> {
             environment: self.drawn.environment,
             points: self.points.as_ref(),
             has_irradiance: lighting.ambient == Ambient::Environment || self.request.all_effects,
+            inter_reflection: self.inter_reflection.as_deref(),
             // As the target stores it, so that clearing has nothing to round.
             background: background.map(|channel| f16::from_f32(channel).to_f32()),
         }

@@ -20,6 +20,7 @@ mod environments;
 mod exact_occlusion;
 mod handed;
 mod hollows;
+mod inter_reflection;
 mod light;
 mod occlusion;
 mod shadows;

@@ -68,6 +68,9 @@ pub struct OcclusionConfig {
     /// Whether the occlusion that a model's author has baked into textures counts, on
     /// top of any other.
     pub baked: bool,
+    /// The model of light between surfaces that every picture of the scene gets, by its name
+    /// among [`crate::multi_bounce::MODELS`]; whoever knows the techniques checks it.
+    pub inter_reflection: Option<Spanned<String>>,
     /// Parameters by technique: name, value and byte range in the file.
     pub techniques: TechniqueParameters,
 }
@@ -117,6 +120,7 @@ impl SceneConfig {
                 blur_radius_px: file.occlusion.blur_radius_px.get(),
                 blur_plane_m: file.occlusion.blur_plane_m.get(),
                 baked: file.occlusion.baked,
+                inter_reflection: file.occlusion.inter_reflection,
                 techniques: file.technique,
             },
             lightings,

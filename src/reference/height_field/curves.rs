@@ -22,13 +22,19 @@ pub struct CurvePoint {
     pub deviation: f64,
 }
 
+/// The bin that an openness of 0 to 1 belongs to.
+#[must_use]
+pub fn bin_of(openness: f32) -> usize {
+    ((openness * BINS as f32) as usize).min(BINS - 1)
+}
+
 /// The curves of all bounces; bins without a texel are left out.
 #[must_use]
 pub fn curves(bounces: &Bounces) -> Vec<CurvePoint> {
     let of = |(bounce, irradiance): (usize, &Vec<f32>)| {
         let mut sums = [(0_u64, 0.0_f64, 0.0_f64); BINS];
         for (openness, irradiance) in bounces.openness.iter().zip(irradiance) {
-            let bin = ((openness * BINS as f32) as usize).min(BINS - 1);
+            let bin = bin_of(*openness);
             let share = f64::from(*irradiance) / std::f64::consts::PI;
             let (count, sum, squares) = &mut sums[bin];
             *count += 1;

@@ -20,7 +20,7 @@ pub mod procedural;
 mod source;
 mod transport;
 
-pub use curves::{CurvePoint, curves};
+pub use curves::{BINS, CurvePoint, bin_of, curves};
 pub use field::{Border, HeightField, HeightFieldError};
 pub use links::{LinkSettings, Links};
 pub use source::{HeightMap, HeightMapError};

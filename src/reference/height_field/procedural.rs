@@ -20,7 +20,7 @@ pub struct Map {
 pub const MAPS: &[Map] = &[
     Map {
         name: "bricks",
-        summary: "a wall in running bond, rounded edges, joints a little rough",
+        summary: "a weathered wall in running bond",
         heights: bricks,
     },
     Map {
@@ -30,7 +30,7 @@ pub const MAPS: &[Map] = &[
     },
     Map {
         name: "concrete",
-        summary: "a nearly even ground with small holes",
+        summary: "rough ground with hollows where bubbles were",
         heights: concrete,
     },
     Map {
@@ -40,7 +40,7 @@ pub const MAPS: &[Map] = &[
     },
     Map {
         name: "crevices",
-        summary: "plates with narrow gaps between",
+        summary: "rough plates with gaps between",
         heights: crevices,
     },
     Map {
@@ -123,11 +123,34 @@ fn octaves(size: usize, seed: u64, cells: usize, octaves: usize, gain: f32) -> V
     sum
 }
 
+/// A value at every texel, read a little beside: edges that a ruler has drawn become edges that
+/// weather has.
+fn warped(size: usize, seed: u64, amount: f32, value: impl Fn(Vec2) -> f32) -> Vec<f32> {
+    let shift = |way: u64| octaves(size, seed ^ (0x57a4 + way), 6, 5, 0.6);
+    let (across, down) = (shift(0), shift(1));
+    let at = |index: usize| (index as f32 + 0.5) / size as f32;
+    (0..size * size)
+        .map(|texel| {
+            let place = Vec2::new(at(texel % size), at(texel / size));
+            let shift = Vec2::new(across[texel], down[texel]) - 1.15;
+            let place = place + amount * shift;
+            value(place - place.floor())
+        })
+        .collect()
+}
+
+/// Heights with some roughness on top, brought to 0 to 1.
+fn roughened(mut heights: Vec<f32>, amount: f32, rough: &[f32]) -> Vec<f32> {
+    for (height, rough) in heights.iter_mut().zip(rough) {
+        *height += amount * rough;
+    }
+    normalised(heights)
+}
+
 fn bricks(size: usize, seed: u64) -> Vec<f32> {
     const COLUMNS: f32 = 4.0;
     const COURSES: f32 = 8.0;
-    let rough = octaves(size, seed, 16, 4, 0.5);
-    let mut heights = everywhere(size, |place| {
+    let walls = warped(size, seed, 0.012, |place| {
         let course = (place.y * COURSES).floor();
         let shift = if course as i64 % 2 == 0 { 0.0 } else { 0.5 };
         let along = place.x * COLUMNS + shift;
@@ -138,13 +161,10 @@ fn bricks(size: usize, seed: u64) -> Vec<f32> {
             2.0 * (0.5 - (within.x - 0.5).abs()),
             0.5 - (within.y - 0.5).abs(),
         );
-        let rise = smooth(0.06, 0.16, edge.min_element());
-        rise * (0.85 + 0.15 * of_cell(seed, brick, course as i64))
+        let rise = smooth(0.02, 0.30, edge.min_element());
+        rise * (0.6 + 0.4 * of_cell(seed, brick, course as i64))
     });
-    for (height, rough) in heights.iter_mut().zip(rough) {
-        *height += 0.06 * rough;
-    }
-    normalised(heights)
+    roughened(walls, 0.45, &octaves(size, seed, 12, 6, 0.6))
 }
 
 fn pebbles(size: usize, seed: u64) -> Vec<f32> {
@@ -174,51 +194,47 @@ fn pebbles(size: usize, seed: u64) -> Vec<f32> {
 }
 
 fn concrete(size: usize, seed: u64) -> Vec<f32> {
-    let ground = octaves(size, seed, 8, 6, 0.6);
     let mut rng = seed::generator(seed, "height-map-holes", 0);
-    let holes: Vec<(Vec2, f32)> = (0..90)
+    let holes: Vec<(Vec2, f32)> = (0..160)
         .map(|_| {
             let centre = Vec2::new(unit_f32(&mut rng), unit_f32(&mut rng));
-            (centre, 0.004 + 0.018 * unit_f32(&mut rng).powi(3))
+            (centre, 0.006 + 0.05 * unit_f32(&mut rng).powi(3))
         })
         .collect();
-    let depth = everywhere(size, |place| {
-        holes.iter().fold(0.0_f32, |depth, (centre, radius)| {
+    // Where a bubble of air has burst: a round hollow, deep as it is wide.
+    let ground = warped(size, seed, 0.004, |place| {
+        let depth = holes.iter().fold(0.0_f32, |depth, (centre, radius)| {
             let apart = (place - centre + 0.5).fract_gl() - 0.5;
-            depth.max(1.0 - smooth(0.7 * radius, *radius, apart.length()))
-        })
+            let inside = radius * radius - apart.length_squared();
+            depth.max(inside.max(0.0).sqrt())
+        });
+        -12.0 * depth
     });
-    normalised(
-        ground
-            .iter()
-            .zip(depth)
-            .map(|(ground, depth)| 0.3 * ground - depth)
-            .collect(),
-    )
+    roughened(ground, 0.5, &octaves(size, seed, 8, 7, 0.65))
 }
 
 fn crevices(size: usize, seed: u64) -> Vec<f32> {
     let mut rng = seed::generator(seed, "height-map-plates", 0);
-    let centres: Vec<Vec2> = (0..40)
-        .map(|_| Vec2::new(unit_f32(&mut rng), unit_f32(&mut rng)))
+    let plates: Vec<(Vec2, f32)> = (0..40)
+        .map(|_| {
+            let centre = Vec2::new(unit_f32(&mut rng), unit_f32(&mut rng));
+            (centre, unit_f32(&mut rng))
+        })
         .collect();
-    let rough = octaves(size, rng.next_u64(), 16, 4, 0.5);
-    let mut heights = everywhere(size, |place| {
-        let mut nearest = [f32::INFINITY; 2];
-        for centre in &centres {
+    let heights = warped(size, seed, 0.02, |place| {
+        let mut nearest = [(f32::INFINITY, 0.0); 2];
+        for (centre, level) in &plates {
             let apart = ((place - centre + 0.5).fract_gl() - 0.5).length();
-            if apart < nearest[0] {
-                nearest = [apart, nearest[0]];
-            } else if apart < nearest[1] {
-                nearest[1] = apart;
+            if apart < nearest[0].0 {
+                nearest = [(apart, *level), nearest[0]];
+            } else if apart < nearest[1].0 {
+                nearest[1] = (apart, *level);
             }
         }
-        smooth(0.008, 0.022, nearest[1] - nearest[0])
+        let gap = nearest[1].0 - nearest[0].0;
+        smooth(0.004, 0.03, gap) * (0.75 + 0.25 * nearest[0].1)
     });
-    for (height, rough) in heights.iter_mut().zip(rough) {
-        *height += 0.05 * rough;
-    }
-    normalised(heights)
+    roughened(heights, 0.22, &octaves(size, rng.next_u64(), 12, 6, 0.6))
 }
 
 fn bowls(size: usize, _: u64) -> Vec<f32> {

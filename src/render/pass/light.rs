@@ -31,6 +31,8 @@ pub(in super::super) struct LightInputs<'a> {
     pub points: Option<&'a wgpu::Buffer>,
     /// Whether the environment's irradiance is part of the ambient light.
     pub has_irradiance: bool,
+    /// The WGSL of light between surfaces, where the ambient term gets any.
+    pub inter_reflection: Option<&'a str>,
     /// What the radiance target is before any light: linear RGB.
     pub background: [f32; 3],
 }
@@ -107,7 +109,7 @@ impl<'a> LightInputs<'a> {
     }
 
     /// The parts of the shaders that differ by what the frame has.
-    pub(super) fn parts(&self) -> [(&'static str, &'static str); 6] {
+    pub(super) fn parts(&self) -> [(&'static str, &'a str); 8] {
         [
             self.normals_part,
             (
@@ -120,10 +122,13 @@ impl<'a> LightInputs<'a> {
             ),
             (
                 "occluded_ambient",
-                match (self.directional, self.cone) {
-                    (Some(_), _) => include_str!("../shaders/lighting/occluded_by_direction.wgsl"),
-                    (None, Some(_)) => include_str!("../shaders/lighting/occluded_in_cone.wgsl"),
-                    (None, None) => include_str!("../shaders/lighting/occluded_alike.wgsl"),
+                match (self.directional, self.cone, self.inter_reflection) {
+                    (Some(_), ..) => include_str!("../shaders/lighting/occluded_by_direction.wgsl"),
+                    (None, Some(_), _) => include_str!("../shaders/lighting/occluded_in_cone.wgsl"),
+                    (None, None, Some(_)) => {
+                        include_str!("../shaders/lighting/occluded_and_lit_back.wgsl")
+                    }
+                    (None, None, None) => include_str!("../shaders/lighting/occluded_alike.wgsl"),
                 },
             ),
             (
@@ -140,6 +145,17 @@ impl<'a> LightInputs<'a> {
                 } else {
                     include_str!("../shaders/lighting/baked_none.wgsl")
                 },
+            ),
+            (
+                "received",
+                match self.inter_reflection {
+                    None => include_str!("../shaders/lighting/received_alone.wgsl"),
+                    Some(_) => include_str!("../shaders/lighting/received_lit_back.wgsl"),
+                },
+            ),
+            (
+                "inter_reflection",
+                self.inter_reflection.unwrap_or_default(),
             ),
             sun_visibility_part(self.visibility),
         ]

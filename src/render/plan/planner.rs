@@ -215,6 +215,17 @@ impl Planner<'_> {
         reads
     }
 
+    /// What the ambient light is, and what between surfaces is added to it.
+    fn ambient_because(&mut self, light: &str) -> String {
+        match self.reflects_between() {
+            Ok(model) => format!("{light}; {model}"),
+            Err(reason) => {
+                self.leave_out("light between surfaces", reason);
+                light.to_owned()
+            }
+        }
+    }
+
     /// The target that dims the ambient term.
     fn dimming(&self) -> &'static str {
         if self.request.has_directional() {
@@ -243,7 +254,8 @@ impl Planner<'_> {
             "tone map",
             "the lighting asks for none: nothing is brighter than white",
         );
-        let because = format!("constant ambient light, {}", self.samples());
+        let light = format!("constant ambient light, {}", self.samples());
+        let because = self.ambient_because(&light);
         let reads = self.ambient_reads(self.dimming());
         self.pass(
             PassKind::Shade,
@@ -256,10 +268,10 @@ impl Planner<'_> {
 
     fn lights(&mut self) {
         let size = self.request.shaded_size();
-        let because = match self.request.lighting.ambient {
+        let because = self.ambient_because(match self.request.lighting.ambient {
             Ambient::Constant(_) => "constant ambient light",
             Ambient::Environment => "irradiance of the environment",
-        };
+        });
         let mut ambient_reads = self.ambient_reads(self.dimming());
         if self.request.lights_through_cone() {
             ambient_reads.push("bent cone");

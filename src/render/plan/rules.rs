@@ -24,6 +24,25 @@ impl Planner<'_> {
         }
     }
 
+    /// Whether the ambient term gets light between surfaces.
+    pub(super) fn reflects_between(&self) -> Asked {
+        let settings = &self.request.occlusion;
+        let label = &settings.label;
+        match settings.inter_reflection() {
+            Some((model, _)) => Ok(format!(
+                "`{label}` asks for light between surfaces by the model `{}`",
+                model.name
+            )),
+            None if settings.technique.openness().is_some() => {
+                Err(format!("`{label}` asks for no model of it"))
+            }
+            None => Err(format!(
+                "technique `{}` estimates no openness that a model could start from",
+                settings.technique.name
+            )),
+        }
+    }
+
     pub(super) fn blurs(&self) -> Asked {
         self.occludes()?;
         let noise = match self.request.occlusion.technique.noise {

@@ -18,6 +18,7 @@ mod taps;
 mod two_band;
 mod vbao;
 
+use crate::multi_bounce::Openness;
 use crate::seed;
 pub use settings::{Settings, SettingsError};
 
@@ -272,13 +273,30 @@ pub struct Technique {
 }
 
 impl Technique {
-    /// Its own parameters, then those of every technique that runs a pass.
+    /// Its own parameters, then those of every technique that runs a pass, then those of every
+    /// technique that estimates a share of the hemisphere.
     pub fn all_parameters(&self) -> impl Iterator<Item = &'static Parameter> + use<> {
         let common: &[Parameter] = match self.shader {
             Some(_) => COMMON,
             None => &[],
         };
-        self.parameters.iter().chain(common)
+        let reflecting: &[Parameter] = match self.openness() {
+            Some(_) => &INTER_REFLECTING,
+            None => &[],
+        };
+        self.parameters.iter().chain(common).chain(reflecting)
+    }
+
+    /// What openness its estimate is, if it is any: what a multi-bounce model may start from. An
+    /// empirical darkening is none; a technique that answers by direction brings its own bounce.
+    #[must_use]
+    pub fn openness(&self) -> Option<Openness> {
+        match self.weighting {
+            _ if self.inputs.light => None,
+            Weighting::Uniform => Some(Openness::Uniform),
+            Weighting::Cosine => Some(Openness::Cosine),
+            Weighting::None | Weighting::Empirical | Weighting::Obscurance => None,
+        }
     }
 
     /// Whether it hides any light at all.
@@ -316,6 +334,17 @@ const COMMON: &[Parameter] = &[Parameter::choice(
     RESOLUTION,
     &["full", "half"],
     "one estimate a pixel, or one for 2 x 2 pixels, brought to the others by depth",
+)];
+
+/// Name of the parameter that says which light between surfaces is added to the ambient term.
+pub const INTER_REFLECTION: &str = "inter_reflection";
+
+/// What every technique with an [`openness`](Technique::openness) can be set to. The published model
+/// is not among the words: it has a pole where bright surfaces lie open.
+const INTER_REFLECTING: [Parameter; 1] = [Parameter::choice(
+    INTER_REFLECTION,
+    &["none", "published-safe", "jimenez-2016", "greyfield"],
+    "model of the light between surfaces that the ambient term gets by colour channel",
 )];
 
 /// The technique of that name.

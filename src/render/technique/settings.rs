@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::{Parameter, Range, TECHNIQUES, Technique, find};
+use super::{INTER_REFLECTING, INTER_REFLECTION, Parameter, Range, TECHNIQUES, Technique, find};
 use crate::config::{ParameterValue, quantity};
+use crate::multi_bounce::{self, Model, Openness};
 
 /// A technique, fully set.
 #[derive(Debug, Clone)]
@@ -129,6 +130,54 @@ impl Settings {
             *self = probe;
         }
         Ok(())
+    }
+
+    /// Takes the model of light between surfaces that a scene asks for in all its pictures, unless the
+    /// scene or the label says otherwise of this technique. Without any occlusion there is none.
+    ///
+    /// # Errors
+    /// [`SettingsError`] for a technique that estimates no openness, and for a model that there
+    /// is not.
+    pub fn take_inter_reflection(&mut self, model: &str) -> Result<(), SettingsError> {
+        let technique = self.technique;
+        number_of(INTER_REFLECTING[0].range, &model.into()).map_err(|message| SettingsError {
+            parameter: Some(INTER_REFLECTION.to_owned()),
+            message,
+        })?;
+        if !technique.occludes() || model == "none" {
+            return Ok(());
+        }
+        if technique.openness().is_none() {
+            let able: Vec<&str> = TECHNIQUES
+                .iter()
+                .filter(|technique| technique.openness().is_some())
+                .map(|technique| technique.name)
+                .collect();
+            return Err(SettingsError {
+                parameter: Some(INTER_REFLECTION.to_owned()),
+                message: format!(
+                    "a model of light between surfaces starts from how open a point is, which technique `{}` does not \
+                     estimate; {} do. Leave `inter_reflection` out of the scene and say it of single images or under \
+                     [technique.NAME]",
+                    technique.name,
+                    able.join(", ")
+                ),
+            });
+        }
+        self.set_scene_default(INTER_REFLECTION, model)
+    }
+
+    /// The model of light between surfaces that is asked for, and what the technique gives it.
+    #[must_use]
+    pub fn inter_reflection(&self) -> Option<(&'static Model, Openness)> {
+        let openness = self.technique.openness()?;
+        let parameter = self.technique.parameter(INTER_REFLECTION)?;
+        match self.value(parameter) {
+            ParameterValue::Word(word) if word != "none" => {
+                Some((multi_bounce::find(&word)?, openness))
+            }
+            _ => None,
+        }
     }
 
     /// The value of a parameter; of a choice, its place among the words.

@@ -86,7 +86,7 @@ fn light_through_a_cone_is_the_processors() {
         .flat_map(|(x, y)| grid(0.0, 1.0, 5).map(move |share| [x, y, 0.3, share]))
         .collect();
     let source = Source {
-        wgsl: "//!use bent_cone\n",
+        wgsl: "//!use bent_cone\n".into(),
         params: String::new(),
     };
     let bound: [(u32, &[u8]); 1] = [(4, bytemuck::bytes_of(&light))];

@@ -2,6 +2,7 @@
 //! over dense grids. Where a twin can be an integral or a definition, it is that and not the
 //! same formula again.
 
+use std::borrow::Cow;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use wgpu::util::DeviceExt;
@@ -13,14 +14,14 @@ use crate::render::technique::SHARED_WGSL;
 
 /// WGSL, and the parameters it reads.
 pub(super) struct Source {
-    pub wgsl: &'static str,
+    pub wgsl: Cow<'static, str>,
     pub params: String,
 }
 
 impl Source {
     fn of(settings: &Settings) -> Self {
         Self {
-            wgsl: settings.technique.shader.unwrap(),
+            wgsl: settings.technique.shader.unwrap().into(),
             params: settings.wgsl(),
         }
     }
@@ -57,7 +58,7 @@ fn twin(@builtin(global_invocation_id) id: vec3u) {
     }
 }"
     .replace("STATEMENTS", statements);
-    let wgsl = shader::compose(source.wgsl, &variants) + &entry;
+    let wgsl = shader::compose(&source.wgsl, &variants) + &entry;
     let module = gpu
         .device
         .create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -277,7 +278,7 @@ fn octahedral_directions_come_back() {
     let statements = "let packed = pack2x16snorm(octahedral_encode(x.xyz));
         y = vec4f(octahedral_decode(unpack2x16snorm(packed)), 0.0);";
     let source = Source {
-        wgsl: "//!use octahedral\n",
+        wgsl: "//!use octahedral\n".into(),
         params: String::new(),
     };
     for (input, found) in inputs.iter().zip(on_gpu(&source, statements, &[], &inputs)) {

@@ -81,6 +81,7 @@ pub(super) struct OcclusionFile {
     pub blur_radius_px: BlurRadius,
     pub blur_plane_m: PositiveMetres,
     pub baked: bool,
+    pub inter_reflection: Option<Spanned<String>>,
 }
 
 impl Default for OcclusionFile {
@@ -89,6 +90,7 @@ impl Default for OcclusionFile {
             blur_radius_px: BlurRadius(4),
             blur_plane_m: PositiveMetres(0.05),
             baked: false,
+            inter_reflection: None,
         }
     }
 }

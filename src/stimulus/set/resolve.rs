@@ -200,6 +200,15 @@ impl<'a> Loader<'a> {
         let mut settings = Settings::from_label(&choice.technique)
             .map_err(|error| self.error(span.clone(), field, &error.message))?;
         let name = settings.technique.name;
+        if let Some(model) = &scene.occlusion.inter_reflection {
+            settings
+                .take_inter_reflection(model.get_ref())
+                .map_err(|error| {
+                    let field = "occlusion.inter_reflection";
+                    let (path, text) = (&scene.path, &scene.text);
+                    ConfigError::at(path, text, Some(model.span()), field, &error.message)
+                })?;
+        }
         for (parameter, value) in scene.occlusion.techniques.get(name).into_iter().flatten() {
             settings
                 .set_scene_default(parameter, value.get_ref().clone())

@@ -1,5 +1,5 @@
-// The environment's light comes in through the bent cone; what is constant beside it is dimmed by k_A, as
-// it is the same through any cone.
+// The environment's light comes in through the bent cone, not from all round. What is constant, and what
+// surfaces send back, is the same through any cone.
 //!use light
 //!use point
 //!use gather
@@ -7,6 +7,8 @@
 //!use bent_cone
 //!use computed_occlusion
 //!use baked_occlusion
+//!use received
+//!use ambient_term
 @group(0) @binding(15) var cone_texture: texture_2d<f32>;
 
 fn occluded_ambient(point: Point) -> vec3f {
@@ -15,8 +17,7 @@ fn occluded_ambient(point: Point) -> vec3f {
     let closed = gathered(cone_texture, point.texel, point.view_m, normal, frame.samples, last).xyz;
     let moment = point.normal * (2.0 / 3.0) - light.occlusion_weight * closed;
     let open = computed_occlusion(point);
-    let baked = baked_occlusion(point);
-    let albedo = diffuse_albedo(point);
-    return open * baked * (albedo * light.constant_ambient.rgb)
-        + baked * albedo * (irradiance_within(open, moment) / 3.14159265);
+    let bent = irradiance_within(open, moment) - open * environment_irradiance(point.normal);
+    let ambient = received(point, open) * ambient_radiance(point) + diffuse_albedo(point) * (bent / 3.14159265);
+    return baked_occlusion(point) * max(ambient, vec3f(0.0));
 }
