@@ -37,7 +37,8 @@ pub struct BentCones {
     /// Size of the picture whose points are lit.
     #[arg(long, value_name = "WxH", value_parser = size, default_value = "320x180")]
     size: (u32, u32),
-    /// Rays a pixel by the cosine, and as many all alike; rounded up to 16 times a power of two.
+    /// Rays a pixel by the cosine, as many by the environment's brightness, and as many all alike;
+    /// rounded up to 16 times a power of two.
     #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(64..=1 << 20))]
     rays: u32,
     /// Techniques that give a bent cone, as the scene sets them.
@@ -48,6 +49,9 @@ pub struct BentCones {
         default_value = "gtao,vbao,ssdo"
     )]
     techniques: Vec<String>,
+    /// How far the techniques look for occluders, metres [default: as far as the scene has them look].
+    #[arg(long, value_name = "M")]
+    radius_m: Option<f64>,
     /// Seed of rays and kernels.
     #[arg(long, default_value_t = 2010)]
     seed: u64,
@@ -69,6 +73,7 @@ pub fn run(args: &BentCones, verbosity: Verbosity) -> Result<(), Failure> {
     let options = ConeOptions {
         size_px: args.size,
         rays: args.rays,
+        radius_m: args.radius_m,
         seed: args.seed,
     };
     let bar = verbosity.progress(u64::from(args.size.0) * u64::from(args.size.1));

@@ -20,8 +20,11 @@ use crate::stimulus::progress::Progress;
 pub struct ConeOptions {
     /// Columns and rows.
     pub size_px: (u32, u32),
-    /// Rays a pixel by the cosine, and as many all alike.
+    /// Rays a pixel by the cosine, as many by the environment's brightness, and as many all alike.
     pub rays: u32,
+    /// How far the techniques look for occluders, metres; `None`: as far as the scene has them look.
+    /// Rays find whatever there is.
+    pub radius_m: Option<f64>,
     /// Seed of rays and kernels.
     pub seed: u64,
 }
@@ -104,7 +107,7 @@ pub fn measure(
     progress: &Progress<'_>,
 ) -> Result<ConesMeasured, CostError> {
     let settings: Vec<Settings> = (labels.iter())
-        .map(|label| of_label(scene, label))
+        .map(|label| of_label(scene, label, options))
         .collect::<Result<_, _>>()?;
     let Some(first) = settings.first() else {
         return Err(CostError::Input(String::from("no technique is named")));
@@ -150,7 +153,11 @@ pub fn measure(
 }
 
 /// A technique as the scene sets it; what its label says stays.
-fn of_label(scene: &SceneConfig, label: &str) -> Result<Settings, CostError> {
+fn of_label(
+    scene: &SceneConfig,
+    label: &str,
+    options: &ConeOptions,
+) -> Result<Settings, CostError> {
     let input = |error: crate::render::technique::SettingsError| CostError::Input(error.message);
     let mut settings = Settings::from_label(label).map_err(input)?;
     if !settings.technique.gives_cone {
@@ -163,6 +170,9 @@ fn of_label(scene: &SceneConfig, label: &str) -> Result<Settings, CostError> {
         settings
             .set_scene_default(parameter, value.get_ref().clone())
             .map_err(input)?;
+    }
+    if let Some(radius_m) = options.radius_m {
+        settings.set("radius_m", radius_m).map_err(input)?;
     }
     Ok(settings)
 }

@@ -6,6 +6,7 @@ use rand_chacha::rand_core::Rng;
 use rayon::prelude::*;
 
 use super::bent_cone::Opening;
+use super::bright::BrightDirections;
 use super::directions::{Weighting, frame_of};
 use super::occlusion::Surroundings;
 use super::sobol::{Scramble, Sobol};
@@ -28,7 +29,9 @@ pub fn luminance(rgb: Vec3) -> f32 {
 /// The light of one point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lit {
-    /// Irradiance of the environment itself, linear RGB: π times the mean over rays by the cosine.
+    /// Irradiance of the environment itself, linear RGB: rays by the cosine and rays by the
+    /// environment's brightness, each weighed by how dense both lie about it (Veach and Guibas 1995, the
+    /// balance heuristic), as rays by the cosine alone miss lamps.
     pub irradiance: Vec3,
     /// Standard error of its luminance.
     pub standard_error: f32,
@@ -41,8 +44,8 @@ pub struct Lit {
     pub uniform: Opening,
 }
 
-/// Light at every point by `rays` directions by the cosine, and as many all alike (rounded up to 16 times a
-/// power of two); `None` where there is no surface. Depends on nothing but surroundings,
+/// Light at every point by `rays` directions by the cosine, as many by the environment's brightness, and as
+/// many all alike (rounded up to 16 times a power of two); `None` where there is no surface. Depends on nothing but surroundings,
 /// environment, rays and seed. `progress` is told how many points are newly done.
 #[must_use]
 pub fn light<S: Surroundings>(
@@ -56,6 +59,7 @@ pub fn light<S: Surroundings>(
         sobol: Sobol::new(points),
         base: seed::generator(seed, "reference-light", 0).next_u64(),
         nine: environment.irradiance(),
+        bright: BrightDirections::new(environment),
         environment,
     };
     let mut found = vec![None; surroundings.len()];
@@ -75,6 +79,7 @@ struct Tracer<'a> {
     sobol: Sobol,
     base: u64,
     nine: Irradiance,
+    bright: Option<BrightDirections<'a>>,
     environment: &'a Environment,
 }
 
@@ -98,13 +103,14 @@ impl Tracer<'_> {
                     }
                     *opening = opening.with(direction, part);
                     if weighting == Weighting::Cosine {
-                        *sum += self.environment.radiance(direction);
+                        *sum += self.arriving(direction, normal);
                         of_nine += self.nine.radiance(direction);
                     }
                 }
             }
+            *sum += self.by_brightness(surroundings, (&start, normal), (point, replicate));
         }
-        let per_replicate = std::f32::consts::PI / self.sobol.len() as f32;
+        let per_replicate = 1.0 / self.sobol.len() as f32;
         let means = sums.map(|sum| sum * per_replicate);
         let irradiance = means.iter().sum::<Vec3>() / REPLICATES as f32;
         let spread = (means.iter())
@@ -118,6 +124,33 @@ impl Tracer<'_> {
             cosine: openings[0],
             uniform: openings[1],
         })
+    }
+
+    /// The light along a free ray over the density of all rays about it.
+    fn arriving(&self, direction: Vec3, normal: Vec3) -> Vec3 {
+        let cosine = direction.dot(normal).max(0.0);
+        let by_brightness = (self.bright.as_ref()).map_or(0.0, |bright| bright.density(direction));
+        let density = cosine / std::f32::consts::PI + by_brightness;
+        self.environment.radiance(direction) * (cosine / density.max(1e-12))
+    }
+
+    /// The sum of what arrives along a replicate's rays by brightness.
+    fn by_brightness<S: Surroundings>(
+        &self,
+        surroundings: &S,
+        (start, normal): (&S::Start, Vec3),
+        (point, replicate): (usize, usize),
+    ) -> Vec3 {
+        let Some(bright) = &self.bright else {
+            return Vec3::ZERO;
+        };
+        let scramble = Scramble::new(self.base, point as u64, (REPLICATES + replicate) as u64);
+        (0..self.sobol.len())
+            .map(|index| bright.direction(self.sobol.point(index, scramble)))
+            .filter(|direction| direction.dot(normal) > 0.0)
+            .filter(|direction| !surroundings.is_blocked(start, *direction, f32::INFINITY))
+            .map(|direction| self.arriving(direction, normal))
+            .sum()
     }
 }
 

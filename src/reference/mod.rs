@@ -7,6 +7,7 @@
 
 pub mod bent_cone;
 pub mod bounce_fit;
+pub mod bright;
 pub mod bvh;
 pub mod directions;
 mod error;
