@@ -125,7 +125,7 @@ fn our_form_finds_itself() {
         m1: 1.4,
         c2: 0.7,
         m2: 2.1,
-        f: 0.012,
+        f: 0.003,
     };
     let maps = [made_by(&truth, "a"), made_by(&truth, "b")];
     let (found, fit) = fit_greyfield(&maps).unwrap();

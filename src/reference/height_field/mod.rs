@@ -8,7 +8,8 @@
 //! field       heights, normals, border     march      where a ray meets the field
 //! directions  the rays of a texel          links      what each ray has met
 //! transport   bounce after bounce          curves     irradiance over openness
-//! source      heights from files           procedural heights that need none
+//! source      heights and albedos from files, by way of picture
+//! procedural  heights that need none
 //! ```
 
 mod curves;
@@ -16,6 +17,7 @@ mod directions;
 mod field;
 mod links;
 mod march;
+mod picture;
 pub mod procedural;
 mod source;
 mod transport;
@@ -23,7 +25,8 @@ mod transport;
 pub use curves::{BINS, CurvePoint, bin_of, curves};
 pub use field::{Border, HeightField, HeightFieldError};
 pub use links::{LinkSettings, Links};
-pub use source::{HeightMap, HeightMapError};
+pub use picture::PictureError;
+pub use source::{HeightMap, HeightSource, MapError, albedo_map};
 pub use transport::{Bounces, Stopped, TransportSettings};
 
 #[cfg(test)]

@@ -70,7 +70,7 @@ fn everywhere(size: usize, value: impl Fn(Vec2) -> f32) -> Vec<f32> {
 }
 
 /// Brought to 0 to 1; all 0 where there is but one height.
-fn normalised(mut heights: Vec<f32>) -> Vec<f32> {
+pub(super) fn normalised(mut heights: Vec<f32>) -> Vec<f32> {
     let low = heights.iter().copied().fold(f32::INFINITY, f32::min);
     let high = heights.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     let range = if high > low { high - low } else { 1.0 };

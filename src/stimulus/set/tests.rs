@@ -89,7 +89,7 @@ fn assert_parts(message: &str, parts: &[&str]) {
 fn parameters_come_from_default_scene_label_and_set_in_that_order() {
     let set = Files::new(SCENE).parse(SET).unwrap();
     assert_eq!(set.scenes.len(), 1);
-    let pairs: Vec<_> = set.rendered().collect();
+    let pairs: Vec<_> = set.rendered().map(|(_, pair)| pair).collect();
     let ((_, one), (_, two)) = (pairs[0], pairs[1]);
     // The label's samples stand against the scene's; the scene's radius against the default.
     assert_eq!(one.second.get("samples"), 24.0);
@@ -311,4 +311,42 @@ fn a_changed_model_is_a_changed_set() {
     assert_ne!(second, first);
     std::fs::write(&model, "mtllib m.mtl\nv 0 0 1").unwrap();
     assert_ne!(files.parse(SET).unwrap().sha256, second);
+}
+
+/// A scene may ask for light between surfaces in all its pictures; what estimates no openness is
+/// refused there, and a single image may say otherwise.
+#[test]
+fn light_between_surfaces_is_asked_for_by_scene_or_image() {
+    let model = |settings: &Settings| settings.inter_reflection().map(|(model, _)| model.name);
+    let asked = format!("{SCENE}\n[occlusion]\ninter_reflection = \"greyfield\"\n");
+    let set = SET
+        .replace("\"blizzard24\"", "\"gtao\"")
+        .replace("\"crytek24\"", "\"hbao\"");
+    let able = set.replace(
+        "{ technique = \"gtao\", label = \"blizzard24-wide\", radius_m = 2 }",
+        "{ technique = \"gtao\", label = \"direct\", inter_reflection = \"none\" }",
+    );
+    let set = Files::new(&asked).parse(&able).unwrap();
+    let pairs: Vec<_> = set.rendered().map(|(_, pair)| pair).collect();
+    assert_eq!(model(&pairs[0].first), None, "there is no occlusion");
+    assert_eq!(model(&pairs[0].second), Some("greyfield"));
+    assert_eq!(model(&pairs[1].first), Some("greyfield"));
+    assert_eq!(model(&pairs[1].second), None);
+    // The scene alone says nothing for a technique that is an empirical darkening.
+    let message = Files::new(&asked).parse(SET).unwrap_err().to_string();
+    assert_parts(
+        &message,
+        &[
+            "room.toml:23",
+            "occlusion.inter_reflection",
+            "`blizzard`",
+            "hbao, gtao",
+        ],
+    );
+    let unknown = asked.replace("\"greyfield\"", "\"radiosity\"");
+    let message = Files::new(&unknown).parse(&able).unwrap_err().to_string();
+    assert_parts(
+        &message,
+        &["room.toml:23", "radiosity", "jimenez-2016, greyfield"],
+    );
 }

@@ -7,6 +7,9 @@ use glam::Vec3;
 use super::march::Met;
 use super::*;
 
+mod groove;
+mod sources;
+
 const LINKS: LinkSettings = LinkSettings { rays: 256, seed: 1 };
 
 fn field(size: usize, border: Border, height: impl Fn(f32, f32) -> f32) -> HeightField {
