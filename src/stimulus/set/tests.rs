@@ -89,7 +89,7 @@ fn assert_parts(message: &str, parts: &[&str]) {
 fn parameters_come_from_default_scene_label_and_set_in_that_order() {
     let set = Files::new(SCENE).parse(SET).unwrap();
     assert_eq!(set.scenes.len(), 1);
-    let pairs: Vec<_> = set.rendered().map(|(_, pair)| pair).collect();
+    let pairs: Vec<_> = set.rendered().collect();
     let ((_, one), (_, two)) = (pairs[0], pairs[1]);
     // The label's samples stand against the scene's; the scene's radius against the default.
     assert_eq!(one.second.get("samples"), 24.0);
