@@ -304,3 +304,51 @@ impl<'a> Points<'a> {
         ])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::render::Gpu;
+    use crate::scene::environment::RadianceMap;
+
+    /// Constant light is the same through any opening: all ways by rays agree with the truth, a
+    /// technique's cone with its k_A, and what gives no cone is refused.
+    #[test]
+    fn in_constant_light_a_cone_is_as_good_as_k_a() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("stimuli/scenes/shapes.toml");
+        let scene = SceneConfig::load(&path).unwrap();
+        let constant = RadianceMap::from_fn(32, |_| Vec3::splat(2.0));
+        let lit = (&scene, &Environment::from_map(constant));
+        let renderer = Renderer::new(Gpu::open(None).unwrap());
+        let options = ConeOptions {
+            size_px: (64, 36),
+            rays: 256,
+            radius_m: Some(1.0),
+            seed: 1,
+        };
+        let progress = Progress {
+            step: &|_| (),
+            pixels: &|_| (),
+        };
+        let measured = |labels: &[&str]| {
+            let labels: Vec<String> = labels.iter().map(|label| (*label).to_owned()).collect();
+            measure(&renderer, lit, &labels, &options, &progress)
+        };
+        let found = measured(&["gtao", "ssdo16"]).unwrap();
+        assert_eq!(found.record.rows.len(), 4 + 2 * 2);
+        for row in &found.record.rows[..4] {
+            assert!(row.rmse < 0.02, "{row:?}");
+        }
+        for ways in found.irradiance[4..].chunks_exact(2) {
+            for (k_a, cone) in ways[0].iter().zip(&ways[1]) {
+                // The coefficients of a map's bands are its projection, 0 to three digits.
+                assert!((*k_a - *cone).length() < 0.02, "{k_a} {cone}");
+            }
+        }
+        for label in ["hbao", "nonesuch"] {
+            assert!(matches!(measured(&[label]), Err(CostError::Input(_))));
+        }
+    }
+}
