@@ -104,7 +104,8 @@ pub fn run(args: &BentCones, verbosity: Verbosity) -> Result<(), Failure> {
 
 fn environment_of(args: &BentCones, scene: &SceneConfig) -> Result<Environment, Failure> {
     if let Some(path) = &args.environment {
-        let loaded = environment::file::load(path).map_err(Failure::bad_input)?;
+        let loaded = environment::file::load(path)
+            .map_err(|error| Failure::bad_input(anyhow!("{}: {error}", path.display())))?;
         return Ok(Environment::from_file(loaded));
     }
     (scene.lightings.values())
