@@ -8,6 +8,7 @@ mod browse;
 mod check;
 mod cost;
 mod demo;
+mod inter_reflection;
 mod logging;
 mod model;
 mod order;
@@ -46,6 +47,7 @@ enum Command {
     Truth(truth::Truth),
     Bounces(bounces::BouncesArgs),
     BentCones(bent_cones::BentCones),
+    InterReflection(inter_reflection::InterReflectionArgs),
     Model(model::ModelArgs),
     Techniques(techniques::Techniques),
     Check(check::Check),
@@ -128,6 +130,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Truth(args) => truth::run(&args, verbosity),
         Command::Bounces(args) => bounces::run(&args, verbosity),
         Command::BentCones(args) => bent_cones::run(&args, verbosity),
+        Command::InterReflection(args) => inter_reflection::run(&args, verbosity),
         Command::Model(args) => model::run(&args, verbosity),
         Command::Techniques(args) => techniques::run(&args),
         Command::Check(args) => check::run(&args, verbosity),

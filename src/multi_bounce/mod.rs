@@ -6,6 +6,7 @@
 //! numbers. Nothing here knows a scene, a height field or a GPU: the renderer, the truth and the
 //! fits all read it.
 
+mod errors;
 mod greyfield;
 mod jimenez_2016;
 mod none;
@@ -14,6 +15,7 @@ mod published_safe;
 
 use num_traits::Float;
 
+pub use errors::ModelError;
 pub use greyfield::{COEFFICIENTS, Coefficients};
 
 /// What of a point a model is a function of.

@@ -174,6 +174,7 @@ mod tests {
                 normal: Vec3::Y,
                 geometric_normal: Vec3::Y,
                 error_m: 0.0,
+                triangle: None,
             })
         };
         let points = vec![at(0.01), None, at(-1e3)];

@@ -11,10 +11,10 @@ use crate::seed;
 
 /// Independently scrambled series of points that each estimate is the mean of. Their spread
 /// tells the error, which the points of one low-discrepancy series cannot.
-const REPLICATES: usize = 16;
+pub(super) const REPLICATES: usize = 16;
 
 /// Points whose rays one thread traces before it asks for more.
-const POINTS_AT_ONCE: usize = 256;
+pub(super) const POINTS_AT_ONCE: usize = 256;
 
 /// What surrounds the points, and may block their rays.
 pub trait Surroundings: Sync {
@@ -107,13 +107,14 @@ impl OcclusionSettings {
             _ => Ok(()),
         }
     }
+}
 
-    fn points_a_replicate(rays: u32) -> usize {
-        (rays as usize)
-            .div_ceil(REPLICATES)
-            .next_power_of_two()
-            .max(4)
-    }
+/// How many rays of each replicate make so many in all, a power of two.
+pub(super) fn points_a_replicate(rays: u32) -> usize {
+    (rays as usize)
+        .div_ceil(REPLICATES)
+        .next_power_of_two()
+        .max(4)
 }
 
 /// Estimates at every point.
@@ -130,10 +131,10 @@ pub struct Estimates {
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Estimate {
-    value: f64,
-    standard_error: f64,
-    rays: u64,
+pub(super) struct Estimate {
+    pub value: f64,
+    pub standard_error: f64,
+    pub rays: u64,
 }
 
 /// Estimates the occlusion at every point, on all cores of the current thread pool. The result
@@ -183,7 +184,7 @@ struct Sampler<'a> {
 
 impl<'a> Sampler<'a> {
     fn new(settings: &'a OcclusionSettings) -> Self {
-        let most = OcclusionSettings::points_a_replicate(settings.max_rays);
+        let most = points_a_replicate(settings.max_rays);
         Self {
             settings,
             sobol: Sobol::new(most),
@@ -195,7 +196,7 @@ impl<'a> Sampler<'a> {
     fn estimate<S: Surroundings>(&self, surroundings: &S, point: usize) -> Option<Estimate> {
         let (start, normal) = surroundings.start(point)?;
         let frame = frame_of(normal);
-        let least = OcclusionSettings::points_a_replicate(self.settings.min_rays);
+        let least = points_a_replicate(self.settings.min_rays);
         let scrambles: [Scramble; REPLICATES] =
             std::array::from_fn(|k| Scramble::new(self.base, point as u64, k as u64));
         let mut sums = [0.0_f64; REPLICATES];
@@ -237,7 +238,7 @@ impl<'a> Sampler<'a> {
 
 /// The mean of the replicates' means, and its standard error from their spread. With few rays
 /// all replicates may agree by chance, so that the error is not below one ray's weight.
-fn summary(sums: &[f64; REPLICATES], points: usize) -> Estimate {
+pub(super) fn summary(sums: &[f64; REPLICATES], points: usize) -> Estimate {
     let count = REPLICATES as f64;
     let means = sums.map(|sum| sum / points as f64);
     let value = means.iter().sum::<f64>() / count;

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::bvh::SceneBvh;
+use super::bvh::{Hit, SceneBvh};
 use super::occlusion::Surroundings;
 use crate::scene::VisibleSurfaces;
 
@@ -18,6 +18,8 @@ pub struct SurfacePoint {
     pub geometric_normal: Vec3,
     /// How far the position may lie from the surface, metres: rays start this far above it.
     pub error_m: f32,
+    /// The triangle's number in the geometry, as in [`Hit::triangle`]; `None` where none was found.
+    pub triangle: Option<u32>,
 }
 
 /// Rounding of a position and of a ray's meeting with the triangle it lies on: both grow with
@@ -58,6 +60,19 @@ impl SurfacePoint {
     ) -> Option<Self> {
         let from = eye_m + direction * near;
         let hit = bvh.nearest(from.as_vec3(), direction.as_vec3(), (far - near) as f32)?;
+        Self::met(&hit, eye_m, direction, near, far)
+    }
+
+    /// The point where a ray from `eye_m` meets the triangle of a hit, in double precision; `None` for
+    /// a triangle without a direction to face.
+    #[must_use]
+    pub(super) fn met(
+        hit: &Hit,
+        eye_m: DVec3,
+        direction: DVec3,
+        near: f64,
+        far: f64,
+    ) -> Option<Self> {
         let [a, b, c] = hit.corners.map(Vec3::as_dvec3);
         let normal = (b - a).cross(c - a).try_normalize()?;
         let normal = if normal.dot(direction) > 0.0 {
@@ -79,6 +94,7 @@ impl SurfacePoint {
             normal: normal.as_vec3(),
             geometric_normal: normal.as_vec3(),
             error_m: ROUNDING * (position_m.abs().max_element() + size_m),
+            triangle: Some(hit.triangle),
         })
     }
 
@@ -117,6 +133,7 @@ impl SurfacePoint {
             normal: surfaces.normals[pixel],
             geometric_normal,
             error_m: (drawn_within_m + rounding_m) as f32,
+            triangle: None,
         };
         let mut met: Option<Self> = None;
         for (x, y) in BESIDE {
@@ -164,6 +181,17 @@ impl<'a> RayTraced<'a> {
             .map(|pixel| SurfacePoint::visible(bvh, surfaces, pixel))
             .collect();
         Self::new(bvh, points)
+    }
+
+    /// The points; `None` where there is no surface.
+    #[must_use]
+    pub fn points(&self) -> &[Option<SurfacePoint>] {
+        &self.points
+    }
+
+    /// What surrounds them.
+    pub(super) fn bvh(&self) -> &SceneBvh {
+        self.bvh
     }
 }
 

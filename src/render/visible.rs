@@ -1,6 +1,7 @@
 //! The visible surfaces as plain data: the points that occlusion is estimated at, one a pixel.
 
 use glam::{Vec2, Vec3};
+use half::f16;
 
 use super::buffers::{octahedral_decode, stored_normal};
 use super::frame::{FrameRequest, Precision};
@@ -47,6 +48,28 @@ impl View<'_> {
                 .collect(),
         })
     }
+
+    /// The albedo of those surfaces as it is drawn and stored: linear red, green and blue, 0 to 1,
+    /// of each pixel's sample that occlusion belongs to. What it is where there is no surface means
+    /// nothing.
+    ///
+    /// # Errors
+    /// As [`View::render`].
+    pub fn visible_albedo(&mut self, request: &FrameRequest) -> Result<Vec<[f32; 3]>, RenderError> {
+        let gpu = self.gpu();
+        let surfaces = self.surfaces_of(request)?;
+        let mut encoder = gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let albedo = Readback::record(gpu, &mut encoder, surfaces.albedo.texture());
+        gpu.queue.submit([encoder.finish()]);
+        let halves = albedo.read(gpu)?;
+        let texels = request.occlusion_texels();
+        Ok(texels
+            .iter()
+            .map(|&texel| [0, 1, 2].map(|channel| half_at(&halves, 4 * texel + channel)))
+            .collect())
+    }
 }
 
 impl FrameRequest {
@@ -66,6 +89,11 @@ impl FrameRequest {
     fn occlusion_sample(&self) -> f32 {
         ((self.supersampling / 2) as f32 + 0.5) / self.supersampling as f32
     }
+}
+
+/// The half float of that number.
+fn half_at(bytes: &[u8], number: usize) -> f32 {
+    f16::from_le_bytes([bytes[2 * number], bytes[2 * number + 1]]).to_f32()
 }
 
 /// The world-space normal of a texel's triangle: to a few degrees, or, in the thesis' precision,

@@ -107,7 +107,7 @@ impl Unknown {
     }
 
     /// And back.
-    fn from_free(self, free: f64) -> f64 {
+    fn bounded(self, free: f64) -> f64 {
         self.low + (self.high - self.low) / (1.0 + (-free).exp())
     }
 }
@@ -123,7 +123,7 @@ impl<R: Fn(&[f64]) -> Vec<f64>> Problem<'_, R> {
     fn values(&self, free: &DVector<f64>) -> Vec<f64> {
         let bounded = self.unknowns.iter().zip(free.iter());
         bounded
-            .map(|(unknown, free)| unknown.from_free(*free))
+            .map(|(unknown, free)| unknown.bounded(*free))
             .collect()
     }
 

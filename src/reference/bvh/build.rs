@@ -10,8 +10,9 @@ use obvhs::triangle::Triangle;
 use super::node::{CHILDREN, LEAF, Leaf, Node, TRIANGLES};
 use super::tree::Tree;
 
-/// Builds a tree over triangles with finite corners; `names` is what each is called.
-pub(super) fn build(corners: &[[Vec3; 3]], names: &[u32]) -> Tree {
+/// Builds a tree over triangles with finite corners; `names` is what each is called, `numbers` its
+/// place in the geometry.
+pub(super) fn build(corners: &[[Vec3; 3]], names: &[u32], numbers: &[u32]) -> Tree {
     let mut tree = Tree::default();
     if corners.is_empty() {
         return tree;
@@ -35,6 +36,7 @@ pub(super) fn build(corners: &[[Vec3; 3]], names: &[u32]) -> Tree {
         binary: &binary,
         corners,
         names,
+        numbers,
         tree: &mut tree,
     };
     opener.open();
@@ -45,6 +47,7 @@ struct Opener<'a> {
     binary: &'a Bvh2,
     corners: &'a [[Vec3; 3]],
     names: &'a [u32],
+    numbers: &'a [u32],
     tree: &'a mut Tree,
 }
 
@@ -99,11 +102,16 @@ impl Opener<'_> {
     fn leaf(&mut self, node: usize) -> u32 {
         let node = &self.binary.nodes[node];
         let mut leaf = Leaf::EMPTY;
-        for place in 0..node.prim_count as usize {
-            let at = self.binary.primitive_indices[node.first_index as usize + place] as usize;
+        let mut numbers = [0; TRIANGLES];
+        let first = node.first_index as usize;
+        let all = &self.binary.primitive_indices[first..first + node.prim_count as usize];
+        for (place, (number, &at)) in numbers.iter_mut().zip(all).enumerate() {
+            let at = at as usize;
             leaf.set(place, self.corners[at], self.names[at]);
+            *number = self.numbers[at];
         }
         self.tree.leaves.push(leaf);
+        self.tree.numbers.push(numbers);
         self.tree.leaves.len() as u32 - 1
     }
 }

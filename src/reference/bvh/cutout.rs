@@ -95,7 +95,7 @@ impl AlphaTexture {
 }
 
 /// The texel at a texture coordinate along one axis.
-fn texel(coordinate: f32, size_px: u32, wrap: Wrap) -> u32 {
+pub(in crate::reference) fn texel(coordinate: f32, size_px: u32, wrap: Wrap) -> u32 {
     let within = match wrap {
         Wrap::Repeat => coordinate.rem_euclid(1.0),
         Wrap::Clamp => coordinate.clamp(0.0, 1.0),

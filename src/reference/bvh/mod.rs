@@ -7,6 +7,7 @@ mod tree;
 
 use glam::{Vec2, Vec3};
 
+pub(super) use self::cutout::texel;
 use self::cutout::{Cutouts, vertex_alpha};
 use self::node::Ray;
 use self::tree::Tree;
@@ -31,6 +32,8 @@ pub struct Hit {
     pub distance: f32,
     /// The triangle's corners, metres.
     pub corners: [Vec3; 3],
+    /// The triangle's number in the geometry: mesh after mesh, from 0.
+    pub triangle: u32,
 }
 
 impl SceneBvh {
@@ -39,11 +42,14 @@ impl SceneBvh {
     #[must_use]
     pub fn new(geometry: &Geometry) -> Self {
         let mut cutouts = Cutouts::of(geometry);
-        let (mut corners, mut names) = (Vec::new(), Vec::new());
+        let (mut corners, mut names, mut numbers) = (Vec::new(), Vec::new(), Vec::new());
+        let mut number = 0_u32;
         for mesh in &geometry.meshes {
             let material = geometry.materials.get(mesh.material);
             let cut = material.filter(|material| material.alpha_cutoff.is_some());
             for triangle in mesh.indices.chunks_exact(3) {
+                let here = number;
+                number += 1;
                 let vertices = [0, 1, 2].map(|k| &mesh.vertices[triangle[k] as usize]);
                 let [a, b, c] = vertices.map(|vertex| Vec3::from(vertex.position_m));
                 let area = (b - a).cross(c - a).length();
@@ -59,10 +65,11 @@ impl SceneBvh {
                     None => 0,
                 });
                 corners.push([a, b, c]);
+                numbers.push(here);
             }
         }
         Self {
-            tree: build::build(&corners, &names),
+            tree: build::build(&corners, &names, &numbers),
             cutouts,
             triangles: corners.len(),
         }
@@ -89,8 +96,11 @@ impl SceneBvh {
         let ray = Ray::new(origin_m, direction);
         let is_solid = |triangle, weights| self.is_solid(triangle, weights);
         let (distance, leaf, place) = self.tree.walk::<false>(&ray, reach, &is_solid)?;
-        let corners = self.tree.leaves[leaf as usize].corners(place);
-        Some(Hit { distance, corners })
+        Some(Hit {
+            distance,
+            corners: self.tree.leaves[leaf as usize].corners(place),
+            triangle: self.tree.numbers[leaf as usize][place],
+        })
     }
 
     #[inline(always)]

@@ -2,13 +2,16 @@
 
 use std::cell::RefCell;
 
-use super::node::{LEAF, Leaf, Node, Ray};
+use super::node::{LEAF, Leaf, Node, Ray, TRIANGLES};
 
 /// A finished tree; the first node is its root.
 #[derive(Debug, Default)]
 pub(super) struct Tree {
     pub nodes: Vec<Node>,
     pub leaves: Vec<Leaf>,
+    /// The geometry's own number of each leaf's triangles. It stands apart: only the nearest hit asks
+    /// for it, and a leaf stays as small as the tests need it.
+    pub numbers: Vec<[u32; TRIANGLES]>,
     /// Children that may wait at once while a ray goes through it.
     pub most_waiting: usize,
 }

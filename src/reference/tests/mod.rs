@@ -2,6 +2,7 @@
 
 mod exact;
 mod independence;
+mod inter_reflection;
 mod real_files;
 mod screen;
 mod shapes;

@@ -6,7 +6,10 @@ use std::path::Path;
 use super::super::files::{encode_occlusion, write_whole};
 use super::super::manifest::StimulusError;
 use crate::reference::Estimates;
-use exr::prelude::{Image, ReadChannels, ReadLayers, SpecificChannels, WritableImage};
+use exr::prelude::{
+    AnyChannel, AnyChannels, FlatSamples, Image, ReadChannels, ReadLayers, SpecificChannels, Vec2,
+    WritableImage,
+};
 
 /// The occlusion as a 16-bit grey PNG: 0 closed, 65535 open, linear.
 pub(super) fn png(
@@ -50,6 +53,29 @@ pub fn write_exr(
     size_px: (u32, u32),
 ) -> Result<(), StimulusError> {
     write_whole(path, &exr(path, estimates, size_px)?)
+}
+
+/// Writes named channels of 32-bit floats as an EXR, whole or not at all.
+///
+/// # Errors
+/// [`StimulusError`] of the file, also where a channel does not have a value a pixel.
+pub fn write_channels(
+    path: &Path,
+    channels: Vec<(String, Vec<f32>)>,
+    (width, height): (u32, u32),
+) -> Result<(), StimulusError> {
+    let size = Vec2(width as usize, height as usize);
+    if let Some((name, _)) = (channels.iter()).find(|(_, values)| values.len() != size.area()) {
+        return Err(not_encoded(path, &format!("\"{name}\" is of another size")));
+    }
+    let channels = (channels.into_iter())
+        .map(|(name, values)| AnyChannel::new(name.as_str(), FlatSamples::F32(values)));
+    let mut bytes = Cursor::new(Vec::new());
+    Image::from_channels(size, AnyChannels::sort(channels.collect()))
+        .write()
+        .to_buffered(&mut bytes)
+        .map_err(|error| not_encoded(path, &error))?;
+    write_whole(path, &bytes.into_inner())
 }
 
 /// What [`write_exr`] has written, without its count of rays; `None` where there is no such file
@@ -123,5 +149,26 @@ mod tests {
         assert_eq!(names, ["occlusion", "standard_error"]);
         let values: Vec<f32> = channels[1].sample_data.values_as_f32().collect();
         assert_eq!(values, estimates.standard_error);
+    }
+
+    #[test]
+    fn named_channels_come_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("x.exr");
+        let estimates = Estimates {
+            occlusion: vec![0.0, 0.25],
+            standard_error: vec![0.5, 0.125],
+            rays: 0,
+            surfaces: 2,
+        };
+        let channels = [
+            ("standard_error", &estimates.standard_error),
+            ("occlusion", &estimates.occlusion),
+            ("albedo.R", &vec![0.5, 1.0]),
+        ];
+        let channels = channels.map(|(name, values)| (name.to_owned(), values.clone()));
+        write_channels(&path, channels.to_vec(), (2, 1)).unwrap();
+        assert_eq!(read_exr(&path, (2, 1)), Some(estimates));
+        assert!(write_channels(&path, channels.to_vec(), (2, 2)).is_err());
     }
 }

@@ -1,14 +1,15 @@
 //! The truth of a set's pictures: for each scene, occlusion by rays at the points that its
-//! images show, as files with a record.
+//! images show, as files with a record; and of one scene, light over many bounces.
 
 mod files;
+pub mod inter_reflection;
 mod record;
 mod tracer;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-pub use files::{read_exr, write_exr};
+pub use files::{read_exr, write_channels, write_exr};
 pub use record::{FILE_NAME, TruthImage, TruthKind, TruthRecord};
 pub use tracer::SceneTracer;
 
