@@ -2,6 +2,7 @@
 
 mod advise;
 mod analyse;
+mod bent_cones;
 mod bounces;
 mod browse;
 mod check;
@@ -45,6 +46,7 @@ enum Command {
     Render(render::RenderArgs),
     Truth(truth::Truth),
     Bounces(bounces::BouncesArgs),
+    BentCones(bent_cones::BentCones),
     InterReflection(inter_reflection::InterReflectionArgs),
     Model(model::ModelArgs),
     Techniques(techniques::Techniques),
@@ -127,6 +129,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Render(args) => render::run(&args, verbosity),
         Command::Truth(args) => truth::run(&args, verbosity),
         Command::Bounces(args) => bounces::run(&args, verbosity),
+        Command::BentCones(args) => bent_cones::run(&args, verbosity),
         Command::InterReflection(args) => inter_reflection::run(&args, verbosity),
         Command::Model(args) => model::run(&args, verbosity),
         Command::Techniques(args) => techniques::run(&args),

@@ -166,6 +166,7 @@ impl<'a> SceneBench<'a> {
             if let Some(found) = &occlusion
                 && settings.technique.shader.is_some()
                 && !settings.technique.inputs.light
+                && !settings.is("bent_cone", "on")
             {
                 request = self.request(&lighting, &of_truth()?, 0);
                 request.handed_occlusion = Some(found.clone());

@@ -7,10 +7,12 @@
 //! error          occlusion against the truth    spread    median and interval of times
 //! row            one line of cost.csv           front     what nothing else beats
 //! sweep          configurations in turn         store     the folder they are kept in
+//! bent_cones     light through bent cones against rays
 //! ```
 
 pub mod advise;
 pub mod bench;
+pub mod bent_cones;
 pub mod configuration;
 pub mod effects;
 pub mod error;

@@ -7,12 +7,15 @@
 //! on from there: light over any number of bounces, which models of it are measured against.
 
 mod albedo;
+pub mod bent_cone;
 pub mod bounce_fit;
+pub mod bright;
 pub mod bvh;
 pub mod directions;
 mod error;
 pub mod height_field;
 mod inter_reflected;
+pub mod lit;
 mod occlusion;
 mod ray_traced;
 mod screen_space;
@@ -20,6 +23,7 @@ pub mod sobol;
 mod thinned;
 
 pub use albedo::Albedos;
+pub use bent_cone::{BentCone, Opening};
 pub use bvh::SceneBvh;
 pub use directions::Weighting;
 pub use error::ReferenceError;

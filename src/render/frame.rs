@@ -8,7 +8,7 @@ use super::RenderError;
 use super::plan::FramePlan;
 use super::readback::FloatImage;
 use super::technique::{self, Settings, TECHNIQUES};
-use crate::scene::{Camera, Lighting, ModelLights, PointLight, SceneConfig, Sun};
+use crate::scene::{Ambient, Camera, Lighting, ModelLights, PointLight, SceneConfig, Sun};
 
 /// How finely normals and occlusion are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -54,6 +54,9 @@ pub struct FrameRequest {
     /// Whether occlusion is stored as the technique gives it, in 32-bit floats, instead of
     /// brought to 0 to 1, which would hide what is no number: for checks.
     pub unbounded_occlusion: bool,
+    /// Whether the bent cone is kept for reading, whatever light there is: for measurements. `ssdo` gives
+    /// it in place of its light by direction.
+    pub keeps_cone: bool,
     /// Whether every effect runs, at weight nought where the scene does not call for it.
     /// The image is the same, byte for byte; the time is not.
     pub all_effects: bool,
@@ -83,6 +86,7 @@ impl FrameRequest {
             seed,
             baked_occlusion: scene.occlusion.baked,
             unbounded_occlusion: false,
+            keeps_cone: false,
             all_effects: false,
         }
     }
@@ -161,6 +165,23 @@ impl FrameRequest {
             true => wgpu::TextureFormat::R32Float,
             false => Formats::of(self.precision).occlusion,
         }
+    }
+
+    /// Whether the environment's light comes in through the bent cone. Constant light is the same
+    /// through any.
+    pub(super) fn lights_through_cone(&self) -> bool {
+        let has_environment = self.lighting.ambient == Ambient::Environment || self.all_effects;
+        has_environment && self.occlusion.is(technique::BENT_CONE, "on")
+    }
+
+    /// Whether there is a target for the bent cone.
+    pub(super) fn has_cone(&self) -> bool {
+        self.occlusion.technique.gives_cone && (self.keeps_cone || self.lights_through_cone())
+    }
+
+    /// Whether there is a target for ambient light by direction.
+    pub(super) fn has_directional(&self) -> bool {
+        self.occlusion.technique.inputs.light && !self.has_cone()
     }
 
     /// The WGSL part `bounded`.
@@ -276,6 +297,7 @@ impl Formats {
     pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
     pub(super) const DEPTH_TEST: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
     pub(super) const RADIANCE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+    pub(super) const CONE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
     pub(super) const EMISSION: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
     pub(super) const VISIBILITY: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
     pub(super) const OUTPUT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;

@@ -1,5 +1,7 @@
 //! From the GPU's textures to numbers.
 
+use glam::Vec3;
+
 use super::{Gpu, RenderError};
 
 /// One number a pixel, rows from the top.
@@ -103,6 +105,16 @@ impl Readback {
             height_px: self.size_px.1,
             values,
         })
+    }
+
+    /// A texture of four half floats as vectors of its first three.
+    pub(super) fn read_half_vectors(&self, gpu: &Gpu) -> Result<Vec<Vec3>, RenderError> {
+        let bytes = self.read(gpu)?;
+        let half = |texel: &[u8], at: usize| half::f16::from_le_bytes([texel[at], texel[at + 1]]);
+        Ok(bytes
+            .chunks_exact(8)
+            .map(|texel| Vec3::from([0, 2, 4].map(|at| half(texel, at).to_f32())))
+            .collect())
     }
 }
 

@@ -1,5 +1,7 @@
 //! Draws frames: a view of a scene, and images from it.
 
+use glam::Vec3;
+
 use super::environment::EnvironmentTextures;
 use super::frame::{FrameRequest, SHADOW_SIZE_PX};
 use super::pass::Drawable;
@@ -24,6 +26,10 @@ pub struct RenderedFrame {
     pub picture: Picture,
     /// The occlusion coefficient k_A after the blur, 1 is open; `None` where no technique ran.
     pub occlusion: Option<FloatImage>,
+    /// What is closed by direction, where [`FrameRequest::keeps_cone`] asks for it: the mean of all
+    /// directions by the cosine, the open ones counted as nought, after the blur; world space, a vector
+    /// a pixel, rows from the top. What is open is 2/3 of the normal less this.
+    pub closed_directions: Option<Vec<Vec3>>,
     /// What ran, in order, and what it took.
     pub passes: Vec<PassRecord>,
 }
@@ -106,6 +112,7 @@ impl<'a> View<'a> {
         Ok(RenderedFrame {
             picture: shaded.picture,
             occlusion: shaded.occlusion,
+            closed_directions: shaded.cone,
             passes: shaded.passes,
         })
     }

@@ -15,6 +15,7 @@ const PARTS: &[(&str, &str)] = &[
         "directional",
         include_str!("shaders/common/directional.wgsl"),
     ),
+    ("opening", include_str!("shaders/common/opening.wgsl")),
     ("sampling", include_str!("shaders/material/sampling.wgsl")),
     ("display", include_str!("shaders/display.wgsl")),
     ("light", include_str!("shaders/lighting/light.wgsl")),
@@ -25,6 +26,7 @@ const PARTS: &[(&str, &str)] = &[
         "irradiance",
         include_str!("shaders/lighting/irradiance.wgsl"),
     ),
+    ("bent_cone", include_str!("shaders/lighting/bent_cone.wgsl")),
     ("diffuse", include_str!("shaders/lighting/diffuse.wgsl")),
     ("radiance", include_str!("shaders/lighting/radiance.wgsl")),
     (

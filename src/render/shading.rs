@@ -1,5 +1,6 @@
 //! From drawn surfaces to an image: occlusion, light, output.
 
+use glam::Vec3;
 use half::f16;
 use wgpu::util::DeviceExt;
 
@@ -24,6 +25,8 @@ use crate::scene::{Ambient, Background};
 pub(super) struct Shaded {
     pub picture: Picture,
     pub occlusion: Option<FloatImage>,
+    /// What is closed by direction, a pixel, where the request keeps it.
+    pub cone: Option<Vec<Vec3>>,
     /// Radiance, RGBA, at the shaded resolution, where the frame keeps it.
     pub radiance: Option<wgpu::TextureView>,
     /// What ran here, in order.
@@ -54,6 +57,9 @@ pub(super) fn shade(
         .occlusion
         .as_ref()
         .map(|found| Readback::record(gpu, &mut recorder.encoder, found.of_pixels().texture()));
+    let kept = shading.cone.as_ref().filter(|_| request.keeps_cone);
+    let cone =
+        kept.map(|found| Readback::record(gpu, &mut recorder.encoder, found.of_pixels().texture()));
     let passes = recorder.finish();
     Ok(Shaded {
         picture: Picture {
@@ -62,6 +68,7 @@ pub(super) fn shade(
             rgba8: image.read(gpu)?,
         },
         occlusion: occlusion.map(|copy| copy.read_floats(gpu)).transpose()?,
+        cone: cone.map(|copy| copy.read_half_vectors(gpu)).transpose()?,
         radiance: shading.radiance,
         passes,
     })
@@ -109,6 +116,8 @@ struct Shading<'a> {
     occlusion: Option<Estimate>,
     /// What the ambient light changes by, where the technique says it by direction.
     directional: Option<Estimate>,
+    /// What is closed by direction, where the frame has the bent cone.
+    cone: Option<Estimate>,
     /// The WGSL of light between surfaces, where it is asked for.
     inter_reflection: Option<String>,
     radiance: Option<wgpu::TextureView>,
@@ -153,8 +162,11 @@ impl<'a> Shading<'a> {
                 Some(image) => Some(Estimate::handed_in(gpu, image, request.precision)),
                 None => estimate("occlusion", request.occlusion_format()),
             },
-            directional: (request.occlusion.technique.inputs.light)
+            directional: (request.has_directional())
                 .then(|| estimate("directional light", Formats::RADIANCE))
+                .flatten(),
+            cone: (request.has_cone())
+                .then(|| estimate("bent cone", Formats::CONE))
                 .flatten(),
             inter_reflection: request
                 .occlusion
@@ -234,13 +246,16 @@ impl<'a> Shading<'a> {
         let targets = OcclusionTargets {
             occlusion: &occlusion.estimated,
             directional: self.directional.as_ref().map(|found| &found.estimated),
+            cone: self.cone.as_ref().map(|found| &found.estimated),
         };
         pass::occlusion(self.gpu, &self.request.occlusion, &inputs, &targets)
     }
 
     /// What the technique estimated.
     fn estimates(&self) -> impl Iterator<Item = &Estimate> {
-        self.occlusion.iter().chain(&self.directional)
+        (self.occlusion.iter())
+            .chain(&self.directional)
+            .chain(&self.cone)
     }
 
     fn blur(&self, direction: [i32; 2]) -> Vec<Drawable> {
@@ -303,6 +318,9 @@ impl<'a> Shading<'a> {
                 && (self.request.baked_occlusion || self.request.all_effects),
             occlusion: self.occlusion.as_ref().map(Estimate::of_pixels),
             directional: self.directional.as_ref().map(Estimate::of_pixels),
+            cone: (self.cone.as_ref())
+                .filter(|_| self.request.lights_through_cone())
+                .map(Estimate::of_pixels),
             visibility: self.drawn.visibility,
             environment: self.drawn.environment,
             points: self.points.as_ref(),

@@ -156,6 +156,7 @@ fn request(camera: Camera, occlusion: Settings, precision: Precision) -> FrameRe
         seed: 2010,
         baked_occlusion: false,
         unbounded_occlusion: false,
+        keeps_cone: false,
         all_effects: false,
     }
 }

@@ -34,6 +34,7 @@ pub(super) fn request(technique: &str) -> FrameRequest {
         seed: 2010,
         baked_occlusion: false,
         unbounded_occlusion: false,
+        keeps_cone: false,
         all_effects: false,
     }
 }

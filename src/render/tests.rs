@@ -12,6 +12,8 @@ use crate::scene::{
     TextureUse, Wrap,
 };
 
+mod bent_cones;
+mod cone_twins;
 mod display;
 mod effects;
 mod environments;

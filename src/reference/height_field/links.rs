@@ -6,7 +6,8 @@ use rayon::prelude::*;
 use super::directions::Directions;
 use super::field::HeightField;
 use super::march::Met;
-use crate::reference::directions::frame_of;
+use crate::reference::bent_cone::Opening;
+use crate::reference::directions::{Weighting, frame_of};
 
 /// A link to nothing: the sky.
 const SKY: u32 = u32::MAX;
@@ -114,6 +115,26 @@ impl Links {
             });
             let rays = self.rays as f32;
             (count as f32 / rays, std::f32::consts::TAU * sum / rays)
+        })
+    }
+
+    /// What is open to a texel of the field that the links were cast on, by a weighting: from its rays that
+    /// meet nothing. Axes are the field's own, z up.
+    #[must_use]
+    pub fn opening(&self, field: &HeightField, texel: usize, weighting: Weighting) -> Opening {
+        let frame = frame_of(field.normal(texel % field.width(), texel / field.width()));
+        self.with(texel, |met| {
+            let rays = met.iter().zip(self.directions.turned(texel));
+            let free = rays.filter(|(met, _)| **met == SKY);
+            let sum = free.fold(Opening::CLOSED, |opening, (_, direction)| {
+                // The rays are spread alike. By the cosine each counts by twice its own, of mean ½.
+                let part = match weighting {
+                    Weighting::Uniform => 1.0,
+                    Weighting::Cosine => 2.0 * direction.z,
+                };
+                opening.with(frame * direction, part)
+            });
+            sum.scaled(1.0 / self.rays as f32)
         })
     }
 

@@ -21,6 +21,8 @@ pub(in super::super) struct LightInputs<'a> {
     pub occlusion: Option<&'a wgpu::TextureView>,
     /// What the ambient light changes by, where the technique says it by direction.
     pub directional: Option<&'a wgpu::TextureView>,
+    /// What is closed by direction, where the environment's light comes in through the bent cone.
+    pub cone: Option<&'a wgpu::TextureView>,
     /// How much of the directional light arrives.
     pub visibility: Option<&'a wgpu::TextureView>,
     /// The environment; what no pass reads is absent.
@@ -68,7 +70,10 @@ impl<'a> LightInputs<'a> {
     /// matte surfaces.
     fn occlusion(&self, kind: PassKind, bindings: Bindings<'a>) -> Bindings<'a> {
         match (kind, self.directional) {
-            (PassKind::Reflections, _) | (_, None) => bindings.texture_if_any(5, self.occlusion),
+            (PassKind::Reflections, _) => bindings.texture_if_any(5, self.occlusion),
+            (_, None) => bindings
+                .texture_if_any(5, self.occlusion)
+                .texture_if_any(15, self.cone),
             (_, Some(directional)) => bindings.texture(6, directional, false),
         }
     }
@@ -104,7 +109,7 @@ impl<'a> LightInputs<'a> {
     }
 
     /// The parts of the shaders that differ by what the frame has.
-    pub(super) fn parts(&self) -> [(&'static str, &'a str); 7] {
+    pub(super) fn parts(&self) -> [(&'static str, &'a str); 8] {
         [
             self.normals_part,
             (
@@ -117,12 +122,13 @@ impl<'a> LightInputs<'a> {
             ),
             (
                 "occluded_ambient",
-                match (self.directional, self.inter_reflection) {
-                    (Some(_), _) => include_str!("../shaders/lighting/occluded_by_direction.wgsl"),
-                    (None, Some(_)) => {
+                match (self.directional, self.cone, self.inter_reflection) {
+                    (Some(_), ..) => include_str!("../shaders/lighting/occluded_by_direction.wgsl"),
+                    (None, Some(_), _) => include_str!("../shaders/lighting/occluded_in_cone.wgsl"),
+                    (None, None, Some(_)) => {
                         include_str!("../shaders/lighting/occluded_and_lit_back.wgsl")
                     }
-                    (None, None) => include_str!("../shaders/lighting/occluded_alike.wgsl"),
+                    (None, None, None) => include_str!("../shaders/lighting/occluded_alike.wgsl"),
                 },
             ),
             (
@@ -138,6 +144,13 @@ impl<'a> LightInputs<'a> {
                     include_str!("../shaders/lighting/baked_read.wgsl")
                 } else {
                     include_str!("../shaders/lighting/baked_none.wgsl")
+                },
+            ),
+            (
+                "received",
+                match self.inter_reflection {
+                    None => include_str!("../shaders/lighting/received_alone.wgsl"),
+                    Some(_) => include_str!("../shaders/lighting/received_lit_back.wgsl"),
                 },
             ),
             (

@@ -29,6 +29,8 @@ pub(in super::super) struct OcclusionTargets<'a> {
     pub occlusion: &'a wgpu::TextureView,
     /// What the ambient light changes by, for a technique that reads light.
     pub directional: Option<&'a wgpu::TextureView>,
+    /// What is closed by direction, for a frame that has the bent cone, and then in place of the above.
+    pub cone: Option<&'a wgpu::TextureView>,
 }
 
 /// The technique of `settings`, ready to be drawn; `None` for one without a shader.
@@ -74,15 +76,22 @@ pub(in super::super) fn occlusion(
         .chain([("params", params.as_str()), inputs.bounded_part])
         .chain([inputs.normals_part, sun_visibility_part(inputs.visibility)])
         .collect();
-    let targets: Vec<_> = [Some(targets.occlusion), targets.directional]
-        .into_iter()
-        .flatten()
-        .collect();
+    let fragment = match targets.cone {
+        Some(_) => "fs_opening",
+        None => "fs_occlusion",
+    };
+    let targets: Vec<_> = [
+        Some(targets.occlusion),
+        targets.directional.or(targets.cone),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
     let shader = Fullscreen {
         label: technique.name,
         source,
         variants: &variants,
-        fragment: "fs_occlusion",
+        fragment,
         bound: &bound,
         onto: Onto::Cleared(wgpu::Color::TRANSPARENT),
     };

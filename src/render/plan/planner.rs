@@ -149,8 +149,16 @@ impl Planner<'_> {
             }
         }
         let mut writes = vec!["occlusion"];
-        if self.request.occlusion.technique.inputs.light {
+        if self.request.has_directional() {
             writes.push("directional light");
+        }
+        match self.keeps_cone() {
+            Some(Ok(reason)) => {
+                writes.push("bent cone");
+                because += &format!("; {reason}");
+            }
+            Some(Err(reason)) => self.leave_out("bent cone", reason),
+            None => {}
         }
         self.pass(PassKind::Occlusion, size, &reads, &writes, because);
         let mut reads = writes.clone();
@@ -220,7 +228,7 @@ impl Planner<'_> {
 
     /// The target that dims the ambient term.
     fn dimming(&self) -> &'static str {
-        if self.request.occlusion.technique.inputs.light {
+        if self.request.has_directional() {
             "directional light"
         } else {
             "occlusion"
@@ -264,7 +272,10 @@ impl Planner<'_> {
             Ambient::Constant(_) => "constant ambient light",
             Ambient::Environment => "irradiance of the environment",
         });
-        let ambient_reads = self.ambient_reads(self.dimming());
+        let mut ambient_reads = self.ambient_reads(self.dimming());
+        if self.request.lights_through_cone() {
+            ambient_reads.push("bent cone");
+        }
         let reflection_reads = self.ambient_reads("occlusion");
         self.pass(
             PassKind::Ambient,

@@ -15,7 +15,7 @@ impl Planner<'_> {
             return Ok(technique + ": computed by ray tracing on the processor, handed in");
         }
         match settings.technique.shader {
-            Some(_) if settings.technique.inputs.light => {
+            Some(_) if self.request.has_directional() => {
                 Ok(technique
                     + ": it says by direction and colour what the ambient light changes by")
             }
@@ -56,6 +56,28 @@ impl Planner<'_> {
                 "the samples turn from pixel to pixel {noise}; the scene asks for a blur of {radius} px"
             )),
         }
+    }
+
+    /// Whether there is a target for the bent cone; `None` for a technique that gives none.
+    pub(super) fn keeps_cone(&self) -> Option<Asked> {
+        let request = self.request;
+        let settings = &request.occlusion;
+        let is_on = settings.is(technique::BENT_CONE, "on");
+        settings.technique.gives_cone.then(|| {
+            match (request.lights_through_cone(), request.keeps_cone) {
+                (true, _) => Ok(String::from(
+                    "the environment's light comes in through its bent cone",
+                )),
+                (false, true) => Ok(String::from("its bent cone is kept to be read")),
+                (false, false) if is_on => Err(String::from(
+                    "constant ambient light is the same through any cone",
+                )),
+                (false, false) if request.has_directional() => {
+                    Err(String::from("the technique answers by direction already"))
+                }
+                (false, false) => Err(String::from("the technique's `bent_cone` is off")),
+            }
+        })
     }
 
     /// Whether there is anything for a technique's proxies to stand for.

@@ -153,7 +153,10 @@ fn baked_occlusion_asks_for_the_emission_target_and_no_more() {
 /// Everything read was written before it is read.
 #[test]
 fn passes_run_after_what_they_read() {
+    let mut bent = brightest("gtao");
+    bent.occlusion.set("bent_cone", "on").unwrap();
     for request in [
+        bent,
         request("none"),
         request("blizzard8"),
         brightest("none"),
@@ -214,4 +217,37 @@ fn a_models_lights_shine_when_asked_for() {
     assert!(!kinds(&asking, &facts).contains(&PassKind::PointLights));
     asking.lighting.model_lights = Some(0.01);
     assert!(kinds(&asking, &facts).contains(&PassKind::PointLights));
+}
+
+/// The bent cone has a target only where light comes in through it, or a measurement reads it; the plan says why.
+#[test]
+fn the_bent_cone_is_there_for_an_environment_that_comes_in_through_it() {
+    let cone_of = |request: &FrameRequest| {
+        let plan = FramePlan::new(request, &PLAIN);
+        let occlusion = (plan.passes.iter())
+            .find(|pass| pass.kind == PassKind::Occlusion)
+            .unwrap();
+        let is_written = occlusion.writes.contains(&"bent cone");
+        assert_eq!(is_written, occlusion.because.contains("bent cone"));
+        let is_read = (plan.passes.iter())
+            .any(|pass| pass.kind == PassKind::Ambient && pass.reads.contains(&"bent cone"));
+        (is_written, is_read, reason(&plan, "bent cone"))
+    };
+    for label in ["gtao", "vbao"] {
+        let mut off = brightest(label);
+        let (is_written, _, because) = cone_of(&off);
+        assert!(!is_written && because.unwrap().contains("is off"));
+        off.keeps_cone = true;
+        assert_eq!(cone_of(&off), (true, false, None));
+        let mut on = brightest(label);
+        on.occlusion.set("bent_cone", "on").unwrap();
+        assert_eq!(cone_of(&on), (true, true, None));
+        let mut constant = request(label);
+        constant.occlusion.set("bent_cone", "on").unwrap();
+        let (is_written, _, because) = cone_of(&constant);
+        assert!(!is_written && because.unwrap().contains("constant"));
+    }
+    let (is_written, _, because) = cone_of(&brightest("ssdo"));
+    assert!(!is_written && because.unwrap().contains("by direction"));
+    assert_eq!(cone_of(&brightest("hbao")), (false, false, None));
 }

@@ -44,6 +44,7 @@ pub static ALCHEMY: Technique = Technique {
         label: "alchemy12",
         values: &[("samples", 12.0)],
     }],
+    gives_cone: false,
     shader: Some(include_str!("alchemy.wgsl")),
     kernel: slices::noise_shift,
 };

@@ -33,6 +33,7 @@ pub static BLIZZARD: Technique = Technique {
             values: &[("samples", 24.0)],
         },
     ],
+    gives_cone: false,
     shader: Some(include_str!("blizzard.wgsl")),
     kernel: points,
 };

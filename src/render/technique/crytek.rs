@@ -38,6 +38,7 @@ pub static CRYTEK: Technique = Technique {
         label: "crytek24",
         values: &[("samples", 24.0)],
     }],
+    gives_cone: false,
     shader: Some(include_str!("crytek.wgsl")),
     kernel: rotations,
 };

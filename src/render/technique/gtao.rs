@@ -1,6 +1,6 @@
 //! Ground-truth ambient occlusion: horizons, and the light between them in closed form.
 
-use super::slices::{self, RADIUS, SLICES, STEP_POWER, STEPS};
+use super::slices::{self, RADIUS, SLICES, STEP_POWER, STEPS, THROUGH_CONE};
 use super::{Inputs, Noise, Parameter, Preset, Taps, Technique, Weighting};
 
 /// Ground-truth ambient occlusion.
@@ -23,6 +23,7 @@ pub static GTAO: Technique = Technique {
             "the outer share of the radius over which occluders fade out",
         ),
         STEP_POWER,
+        THROUGH_CONE,
     ],
     samples: None,
     taps: Taps::Lines {
@@ -41,6 +42,7 @@ pub static GTAO: Technique = Technique {
             values: &[("slices", 9.0), ("steps", 3.0)],
         },
     ],
+    gives_cone: true,
     shader: Some(include_str!("gtao.wgsl")),
     kernel: slices::noise_shift,
 };

@@ -1,6 +1,7 @@
 // Jimenez et al. 2016: in each slice the horizon to both sides, and the cosine-weighted light between them by
 // a closed form.
 //!use slices
+//!use opening
 
 // The higher of two horizons' cosines: the one so far, and that of a sample.
 fn raised(highest: f32, lowest: f32, seen: Seen) -> f32 {
@@ -11,14 +12,16 @@ fn raised(highest: f32, lowest: f32, seen: Seen) -> f32 {
     return select(highest, max(highest, rise), seen.is_there);
 }
 
-fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
+fn opening(pixel: vec2i, depth_m: f32) -> Opening {
     let sight = sight_of(pixel, depth_m);
     let noise = spatial_noise(pixel);
     var open = 0.0;
     var whole = 0.0;
+    var closed = vec3f(0.0);
     for (var i = 0.0; i < params.slices; i += 1.0) {
         let angle = PI * (i + noise.x) / params.slices;
-        let slice = slice_at(sight, vec2f(cos(angle), sin(angle)), params.radius_m);
+        let turn = vec2f(cos(angle), sin(angle));
+        let slice = slice_at(sight, turn, params.radius_m);
         // Cosines of the angles to the horizon to both sides; at first, of the surface itself.
         let lowest = vec2f(-slice.sin_normal, slice.sin_normal);
         var highest = lowest;
@@ -29,7 +32,15 @@ fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
         }
         open += slice.weight * (arc(slice, 1.0, highest.x) + arc(slice, -1.0, highest.y));
         whole += slice.weight * slice.light;
+        let below = arc_moment(slice, 1.0, lowest.x) - arc_moment(slice, 1.0, highest.x)
+            + arc_moment(slice, -1.0, lowest.y) - arc_moment(slice, -1.0, highest.y);
+        closed += slice.weight * vec3f(below.x * turn, below.y);
     }
     // By what the same slices would let in if all were open: an open plane is exactly 1.
-    return open / max(whole, 1e-6);
+    let all = max(whole, 1e-6);
+    return Opening(open / all, in_world(pixel, depth_m, closed / all));
+}
+
+fn accessibility(pixel: vec2i, depth_m: f32) -> f32 {
+    return opening(pixel, depth_m).share;
 }

@@ -41,6 +41,7 @@ pub static HBAO: Technique = Technique {
         label: "hbao24",
         values: &[("directions", 6.0), ("steps", 4.0)],
     }],
+    gives_cone: false,
     shader: Some(include_str!("hbao.wgsl")),
     kernel: slices::noise_shift,
 };

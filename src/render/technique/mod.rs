@@ -263,6 +263,9 @@ pub struct Technique {
     pub reach: Option<&'static str>,
     /// Known settings.
     pub presets: &'static [Preset],
+    /// Whether it also says which way its open directions lie, so that the environment's light can
+    /// be taken from within their cone.
+    pub gives_cone: bool,
     /// Its WGSL; `None` for a technique that runs no pass.
     pub shader: Option<&'static str>,
     /// Its seeded points or rotations, for the WGSL's `kernel`.
@@ -319,6 +322,9 @@ impl Technique {
 
 /// Name of the parameter that every technique with a pass has: at which resolution it runs.
 pub(super) const RESOLUTION: &str = "resolution";
+
+/// Name of the parameter that lets the environment's light in through the bent cone.
+pub(super) const BENT_CONE: &str = "bent_cone";
 
 /// Name of the parameter of a technique that reads [`Inputs::proxies`]: how many there are.
 pub(super) const PROXIES: &str = "proxies";

@@ -15,6 +15,7 @@ pub static NONE: Technique = Technique {
     taps: Taps::None,
     reach: None,
     presets: &[],
+    gives_cone: false,
     shader: None,
     kernel: |_, _| Vec::new(),
 };

@@ -33,6 +33,7 @@ pub static RAY_MARCH: Technique = Technique {
         label: "ray-march30",
         values: &[("directions", 30.0), ("steps", 4.0)],
     }],
+    gives_cone: false,
     shader: Some(include_str!("ray_march.wgsl")),
     kernel: points,
 };

@@ -38,6 +38,7 @@ pub static RAY_TRACED: Technique = Technique {
     taps: Taps::None,
     reach: Some("d_max_m"),
     presets: &[],
+    gives_cone: false,
     shader: None,
     kernel: |_, _| Vec::new(),
 };

@@ -1,6 +1,6 @@
 //! What techniques that look along slices have in common: their seed and their parameters.
 
-use super::{Parameter, Settings};
+use super::{BENT_CONE, Parameter, Settings};
 use crate::seed::{self, unit_f32};
 
 /// The seed's own shift of the spatial noise, in [0, 1)².
@@ -38,4 +38,11 @@ pub(super) const STEP_POWER: Parameter = Parameter::number(
     (1.0, 8.0),
     2.0,
     "samples lie at the radius times (i/steps) to this power: above 1 they gather near the point",
+);
+
+/// Whether light of an environment comes in through the bent cone.
+pub(super) const THROUGH_CONE: Parameter = Parameter::choice(
+    BENT_CONE,
+    &["off", "on"],
+    "on: an environment's light comes in through the cone of open directions; off: from all round, times k_A",
 );

@@ -181,3 +181,24 @@ fn whole_arc(slice: Slice) -> f32 {
 fn low_arc(slice: Slice) -> f32 {
     return 0.5 * (slice.cos_normal - slice.sin_normal * arc_cosine(slice.sin_normal));
 }
+
+// The sum of directions of a slice between the eye's direction and an angle to one side (1 or -1), by the
+// angle's cosine, each by its light: the integral of cos(t - n) |sin t| (sin t, cos t) without sign, across
+// and towards the eye (as the bent normal of Jimenez et al. 2016).
+fn arc_moment(slice: Slice, side: f32, cosine: f32) -> vec2f {
+    let sine_2 = max(1.0 - cosine * cosine, 0.0);
+    let sine_3 = sine_2 * sqrt(sine_2);
+    let cosine_3 = cosine * cosine * cosine;
+    return vec2f(
+        side * slice.cos_normal * sine_3 + slice.sin_normal * (2.0 - 3.0 * cosine + cosine_3),
+        slice.cos_normal * (1.0 - cosine_3) + side * slice.sin_normal * sine_3,
+    ) / 3.0;
+}
+
+// A vector in the axes of a point's line of sight, in the world.
+fn in_world(pixel: vec2i, depth_m: f32, along: vec3f) -> vec3f {
+    let view = -normalize(view_position(sample_px(pixel), depth_m));
+    let right = normalize(vec3f(1.0, 0.0, 0.0) - view * view.x);
+    let turned = along.x * right + along.y * cross(view, right) + along.z * view;
+    return (frame.inverse_view * vec4f(turned, 0.0)).xyz;
+}

@@ -32,6 +32,7 @@ pub static SSDO: Technique = Technique {
         label: "ssdo16",
         values: &[("samples", 16.0)],
     }],
+    gives_cone: true,
     shader: Some(include_str!("ssdo.wgsl")),
     kernel: slices::noise_shift,
 };

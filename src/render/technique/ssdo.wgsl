@@ -6,6 +6,7 @@
 // the cosine: each stands for the same share. What is stored is the change of the ambient light, so
 // that where nothing is hidden the shading has no noise at all.
 //!use directional
+//!use opening
 //!use spatial_noise
 //!use light
 //!use diffuse
@@ -92,6 +93,7 @@ fn directional(pixel: vec2i, depth_m: f32) -> Directional {
     let up = cross(normal, right);
     let noise = spatial_noise(pixel);
     var closed = 0.0;
+    var closed_towards = vec3f(0.0);
     var lost = vec3f(0.0);
     var ambient_bounce = vec3f(0.0);
     var sun_bounce = vec3f(0.0);
@@ -106,6 +108,7 @@ fn directional(pixel: vec2i, depth_m: f32) -> Directional {
             continue;
         }
         closed += 1.0;
+        closed_towards += direction;
         lost += ambient_from((frame.inverse_view * vec4f(direction, 0.0)).xyz);
         let sender = point_at(hider.texel);
         let sent = diffuse_albedo(sender) * arriving(hider, normal);
@@ -114,8 +117,14 @@ fn directional(pixel: vec2i, depth_m: f32) -> Directional {
     }
     var result: Directional;
     result.accessibility = 1.0 - closed / params.samples;
+    result.closed = closed_towards / params.samples;
     // A sender of ambient light is taken to be as open as the point it sends to.
     let bounce = params.bounce * (ambient_bounce * result.accessibility + sun_bounce);
     result.change = (bounce - lost) / params.samples;
     return result;
+}
+
+fn opening(pixel: vec2i, depth_m: f32) -> Opening {
+    let found = directional(pixel, depth_m);
+    return Opening(found.accessibility, (frame.inverse_view * vec4f(found.closed, 0.0)).xyz);
 }

@@ -57,6 +57,7 @@ pub static TWO_BAND: Technique = Technique {
         label: "two-band24",
         values: &[("samples", 24.0)],
     }],
+    gives_cone: false,
     shader: Some(include_str!("two_band.wgsl")),
     kernel: slices::noise_shift,
 };

@@ -1,6 +1,6 @@
 //! Visibility bitmasks: slices whose occluders have a thickness.
 
-use super::slices::{self, RADIUS, SLICES, STEP_POWER, STEPS};
+use super::slices::{self, RADIUS, SLICES, STEP_POWER, STEPS, THROUGH_CONE};
 use super::{Inputs, Noise, Parameter, Preset, Taps, Technique, Weighting};
 
 /// Visibility-bitmask ambient occlusion.
@@ -23,6 +23,7 @@ pub static VBAO: Technique = Technique {
             "how deep whatever is seen goes on behind what is seen of it",
         ),
         STEP_POWER,
+        THROUGH_CONE,
     ],
     samples: None,
     taps: Taps::Lines {
@@ -41,6 +42,7 @@ pub static VBAO: Technique = Technique {
             values: &[("slices", 9.0), ("steps", 3.0)],
         },
     ],
+    gives_cone: true,
     shader: Some(include_str!("vbao.wgsl")),
     kernel: slices::noise_shift,
 };

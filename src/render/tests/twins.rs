@@ -26,7 +26,7 @@ impl Source {
         }
     }
 
-    fn of_technique(name: &str) -> Self {
+    pub fn of_technique(name: &str) -> Self {
         Self::of(&Settings::from_label(name).unwrap())
     }
 }
@@ -139,12 +139,12 @@ fn twin(@builtin(global_invocation_id) id: vec3u) {
     bytemuck::pod_collect_to_vec(&bytes)
 }
 
-fn grid(low: f32, high: f32, steps: usize) -> impl Iterator<Item = f32> + Clone {
+pub(super) fn grid(low: f32, high: f32, steps: usize) -> impl Iterator<Item = f32> + Clone {
     (0..=steps).map(move |i| low + (high - low) * i as f32 / steps as f32)
 }
 
 /// Simpson's rule.
-fn integral(from: f64, to: f64, value: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn integral(from: f64, to: f64, value: impl Fn(f64) -> f64) -> f64 {
     const STEPS: usize = 512;
     let h = (to - from) / STEPS as f64;
     let sum: f64 = (0..=STEPS)

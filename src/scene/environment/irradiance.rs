@@ -1,6 +1,6 @@
 //! Irradiance by the normal, as nine spherical-harmonic coefficients of a radiance map.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Mat3, Vec3};
 
 use super::RadianceMap;
 
@@ -132,6 +132,47 @@ impl Irradiance {
         self.unclamped(normal).max(Vec3::ZERO)
     }
 
+    /// The sum in a unit direction with each band times a factor of its own; may be negative.
+    #[must_use]
+    pub fn banded(&self, direction: Vec3, factors: [f32; 3]) -> Vec3 {
+        self.weighted(basis(direction), factors)
+    }
+
+    /// Radiance from a unit direction, as far as three bands hold it: the cosine lobe taken out of the
+    /// coefficients again. May be negative.
+    #[must_use]
+    pub fn radiance(&self, towards: Vec3) -> Vec3 {
+        self.banded(towards, WITHOUT_LOBE)
+    }
+
+    /// Mean radiance over directions ω, of which three bands need no more than the means of ω and of
+    /// ωωᵀ. May be negative.
+    #[must_use]
+    pub fn mean_radiance(&self, mean: Vec3, mean_of_products: Mat3) -> Vec3 {
+        let m = mean_of_products;
+        let values = [
+            0.282_094_8,
+            0.488_602_5 * mean.y,
+            0.488_602_5 * mean.z,
+            0.488_602_5 * mean.x,
+            1.092_548_4 * m.x_axis.y,
+            1.092_548_4 * m.y_axis.z,
+            0.315_391_57 * (3.0 * m.z_axis.z - 1.0),
+            1.092_548_4 * m.x_axis.z,
+            0.546_274_2 * (m.x_axis.x - m.y_axis.y),
+        ];
+        self.weighted(values, WITHOUT_LOBE)
+    }
+
+    fn weighted(&self, values: [f32; 9], factors: [f32; 3]) -> Vec3 {
+        (self.coefficients.iter().zip(values))
+            .enumerate()
+            .map(|(index, (coefficient, value))| {
+                *coefficient * (value * factors[band(index) as usize])
+            })
+            .sum()
+    }
+
     fn unclamped(&self, normal: Vec3) -> Vec3 {
         self.coefficients
             .iter()
@@ -140,6 +181,12 @@ impl Irradiance {
             .sum::<Vec3>()
     }
 }
+
+/// One over what [`cosine_lobe`] keeps of each band.
+const WITHOUT_LOBE: [f32; 3] = {
+    use std::f32::consts::PI;
+    [1.0 / PI, 1.5 / PI, 4.0 / PI]
+};
 
 /// The nine real spherical harmonics of bands 0 to 2 at a unit direction.
 #[must_use]

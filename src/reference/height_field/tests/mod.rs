@@ -244,3 +244,42 @@ fn every_map_fills_its_range_and_is_the_same_every_time() {
         assert_eq!(heights, (map.heights)(64, 3));
     }
 }
+
+/// What is open to a texel bends away from what closes it: not at all in the open, by 45° at the foot of an
+/// endless wall (32.5° by the cosine), and not at all in the middle of a pit, whose aperture it has.
+#[test]
+fn openings_bend_away_from_what_closes_them() {
+    use crate::reference::Weighting::{Cosine, Uniform};
+    let fine = LinkSettings {
+        rays: 4096,
+        seed: 3,
+    };
+    let opening = |field: &HeightField, texel: usize, weighting| {
+        let links = Links::recast(field, &fine);
+        let opening = links.opening(field, texel, weighting);
+        (opening.share, opening.cone(weighting).unwrap())
+    };
+    let middle = 32 * 65 + 32;
+    let plane = field(65, Border::Tiled, |_, _| 0.0);
+    let wall = field(65, Border::Open, |x, _| if x >= 34.0 { 1e5 } else { 0.0 });
+    // The pit's wall leans over one texel: its rim is 20 to 21 texels away.
+    let pit = field(65, Border::Open, |x, y| {
+        if (x - 32.0).hypot(y - 32.0) >= 20.5 {
+            20.5
+        } else {
+            0.0
+        }
+    });
+    for (weighting, tangent) in [(Uniform, 1.0_f32), (Cosine, 2.0 / PI)] {
+        let (share, cone) = opening(&plane, middle, weighting);
+        assert!(share > 0.995 && cone.direction.z > 0.9999, "{cone:?}");
+        assert!(cone.cos_half_angle < 0.05, "{cone:?}");
+        let (share, cone) = opening(&wall, middle, weighting);
+        assert!((share - 0.5).abs() < 0.02, "{share}");
+        let leans = (-cone.direction.x).atan2(cone.direction.z);
+        assert!((leans - tangent.atan()).abs() < 0.03, "{leans}");
+        let (_, cone) = opening(&pit, middle, weighting);
+        assert!(cone.direction.z > 0.999, "{cone:?}");
+        assert!((cone.half_angle_rad() - PI / 4.0).abs() < 0.03, "{cone:?}");
+    }
+}

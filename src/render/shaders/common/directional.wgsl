@@ -9,6 +9,8 @@ struct Directional {
     // By how much the ambient radiance of a white matte surface differs from that of an open one:
     // less what occluders hide, more what they send.
     change: vec3f,
+    // The mean of all directions, the open ones counted as nought; view space.
+    closed: vec3f,
 }
 
 struct Written {
