@@ -42,13 +42,13 @@ const INVERSE_STEPS: usize = 8;
 
 /// Fitted to height fields; see docs/bounces.md for which, and for those it was tried on.
 pub const COEFFICIENTS: Coefficients = Coefficients {
-    k0: 0.80,
-    k1: 0.91,
-    c1: 0.82,
-    m1: 1.89,
-    c2: 0.27,
-    m2: 6.5,
-    f: 0.009,
+    k0: 1.515_8,
+    k1: 0.119_6,
+    c1: 0.722_9,
+    m1: 4.045,
+    c2: 0.95,
+    m2: 1.72,
+    f: 0.005,
 };
 
 impl Coefficients {

@@ -11,6 +11,10 @@ use super::field::{BLOCK, Border, HeightField};
 /// A field this much above a ray, in texels, is the ray's own surface: rounding.
 const ROUNDING: f32 = 1e-4;
 
+/// Fields that a ray passes over before it is free: along a row or diagonal of a tiled field it could
+/// go on at nearly the same height for ever.
+const TILES: f32 = 32.0;
+
 /// What a ray comes to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Met {
@@ -85,10 +89,11 @@ impl Ray<'_> {
         }
     }
 
-    /// Where it leaves an open field; never a tiled one.
+    /// Where it leaves an open field, or has passed over a tiled one often enough.
     fn leaves(&self) -> f32 {
         if self.field.border() == Border::Tiled {
-            return f32::INFINITY;
+            let side = self.field.width().max(self.field.height()) as f32;
+            return TILES * side / self.direction.truncate().length();
         }
         let of = |from: i64, size: usize, step: f32| {
             let border = if step > 0.0 {
@@ -213,8 +218,8 @@ impl Block {
             _ => f32::INFINITY,
         };
         let out = of(self.corner.x, ray.direction.x).min(of(self.corner.y, ray.direction.y));
-        // Rounding at a corner must not stop the ray.
-        out.max(from + 1e-3)
+        // Rounding at a corner must not stop the ray, however far it has come.
+        out.max(from + 1e-3 + 4.0 * f32::EPSILON * from)
     }
 
     /// How far the field stands above the ray at a distance.

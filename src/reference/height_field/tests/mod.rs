@@ -72,6 +72,25 @@ fn rays_meet_what_is_there() {
     assert_eq!(meets(10, Vec3::Z), Met::Sky);
 }
 
+/// A ray that runs along a row of a tiled field at nearly one height would meet nothing for ever, and
+/// where floats are coarse would not even come on.
+#[test]
+fn a_ray_without_end_ends() {
+    let mut heights = vec![0.0; 64 * 64];
+    heights[10 * 64 + 10] = 50.0;
+    heights[40 * 64 + 20] = 49.0;
+    let spikes = HeightField::new((64, 64), &heights, Border::Tiled).unwrap();
+    for rise in [0.0, 1e-9, 1e-7, 1e-5, 1e-3] {
+        for across in [Vec3::X, -Vec3::X, Vec3::new(0.0, 1.0, 0.0)] {
+            let found = spikes.meets((20, 40), (across + Vec3::Z * rise).normalize());
+            assert_eq!(found, Met::Sky, "{across} {rise}");
+        }
+    }
+    // Into the ground it goes, however gently.
+    let down = Vec3::new(1.0, 0.0, -2e-2).normalize();
+    assert_ne!(spikes.meets((20, 40), down), Met::Sky);
+}
+
 /// Passing over blocks at once must not pass over what is in them: the same rays by small steps.
 #[test]
 fn blocks_hide_nothing() {
