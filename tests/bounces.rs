@@ -142,7 +142,7 @@ fn bad_maps_and_settings_are_refused() {
             &["8×8", "32×32"],
         ),
         (&["one.png"], &["one.png", "1×1"]),
-        (&["fbm", "--amplitude", "-1"], &["amplitude", "-1"]),
+        (&["fbm", "--amplitude=-1"], &["amplitude", "-1"]),
         (&["fbm", "--held-out", "nothing"], &["no file nothing"]),
     ] {
         let output = bounces(folder.path(), &[arguments, &["--out", "made"]].concat());

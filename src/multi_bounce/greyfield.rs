@@ -37,8 +37,8 @@ pub struct Coefficients {
     pub f: f64,
 }
 
-/// Steps to the inverse of F₀: each takes off three quarters of the error or more.
-const INVERSE_STEPS: usize = 8;
+/// Steps to the inverse of F₀: each takes off nine tenths of the error or more.
+const INVERSE_STEPS: usize = 4;
 
 /// Fitted to height fields; see docs/bounces.md for which, and for those it was tried on.
 pub const COEFFICIENTS: Coefficients = Coefficients {
