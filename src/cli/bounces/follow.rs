@@ -9,7 +9,7 @@ use super::{BouncesArgs, border};
 use crate::cli::{Failure, Verbosity};
 use crate::reference::bounce_fit::{MapSettings, StudiedMap};
 use crate::reference::height_field::{
-    Bounces, HeightField, HeightSource, LinkSettings, Links, TransportSettings,
+    Bounces, HeightField, HeightMap, HeightSource, LinkSettings, Links, TransportSettings,
 };
 
 /// `NAME`, `FILE`, or either with `@AMPLITUDE`.
@@ -138,17 +138,7 @@ impl Followed {
             .source
             .heights(args.seed)
             .map_err(Failure::bad_input)?;
-        if heights.is_even() {
-            eprintln!("note: {name} is even: every point lies in the open");
-        }
-        let scale = amplitude as f32 * heights.width as f32;
-        let scaled: Vec<f32> = heights
-            .heights
-            .iter()
-            .map(|height| height * scale)
-            .collect();
-        let field = HeightField::new(found.size_px, &scaled, border(args))
-            .map_err(|error| Failure::bad_input(anyhow!("{}: {error}", map.name)))?;
+        let field = field_of(map, &heights, amplitude, args)?;
         let settings = LinkSettings {
             rays: args.rays as usize,
             seed: args.seed,
@@ -218,4 +208,24 @@ impl Followed {
             ),
         }
     }
+}
+
+/// The field of a map at an amplitude.
+fn field_of(
+    map: &MapArg,
+    heights: &HeightMap,
+    amplitude: f64,
+    args: &BouncesArgs,
+) -> Result<HeightField, Failure> {
+    if heights.is_even() {
+        eprintln!("note: {} is even: every point lies in the open", map.name);
+    }
+    let scale = amplitude as f32 * heights.width as f32;
+    let scaled: Vec<f32> = heights
+        .heights
+        .iter()
+        .map(|height| height * scale)
+        .collect();
+    HeightField::new((heights.width, heights.height), &scaled, border(args))
+        .map_err(|error| Failure::bad_input(anyhow!("{}: {error}", map.name)))
 }
