@@ -41,7 +41,7 @@ fn a_person_reads_and_clicks_through_a_whole_session() {
         let [first, second] = desk.study.shown(&plan, trial);
         assert_eq!(row.first_image_sha256, first.sha256);
         assert_eq!(row.second_image_sha256, second.sha256);
-        assert_eq!(row.response, Some(choices[trial]));
+        assert_eq!(row.response, Some(choices[trial].into()));
         let grey_ns = row.grey_offset_ns.zip(row.grey_onset_ns);
         let grey_ns = grey_ns.map(|(off, on)| off - on);
         assert_eq!(grey_ns, Some(2 * SECOND_NS), "the grey stood its time");
@@ -85,7 +85,13 @@ fn an_image_screen_holds_the_files_own_pixels_on_grey_and_no_pointer() {
         .shown(&plan, 0)
         .map(|image| desk.study.rgba8(image));
     for (expected, position) in images.iter().zip([Position::First, Position::Second]) {
-        assert_eq!(desk.screen(), Screen::Image { trial: 0, position });
+        assert_eq!(
+            desk.screen(),
+            Screen::Image {
+                trial: 0,
+                place: position.place()
+            }
+        );
         assert_eq!(
             desk.harness.output().platform_output.cursor_icon,
             egui::CursorIcon::None
@@ -117,10 +123,7 @@ fn a_held_space_bar_ends_one_image_and_not_the_next() {
         desk.frame();
         desk.pass_time(SECOND_NS / 2);
     }
-    let second = Screen::Image {
-        trial: 0,
-        position: Position::Second,
-    };
+    let second = Screen::Image { trial: 0, place: 1 };
     assert_eq!(desk.screen(), second);
     desk.harness.key_up(Key::Space);
     desk.frame();

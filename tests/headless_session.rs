@@ -69,7 +69,7 @@ fn the_first_observer_always_takes_the_first_image() {
     let rows = read_folder(&results).unwrap().rows;
     assert_eq!(rows.len(), 2 * TRIALS);
     for row in rows {
-        assert_eq!(row.response, Some(Position::First));
+        assert_eq!(row.response, Some(Position::First.into()));
         assert_eq!(row.chosen_technique, Some(row.technique_first));
     }
 }

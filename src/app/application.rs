@@ -22,6 +22,7 @@ use super::theme;
 use super::window::Content;
 use crate::protocol::Protocol;
 use crate::record::{Enrolment, InputDevice, OnsetMethod, ParticipantId, Study};
+use crate::session::DisplayOnRecord;
 use crate::session::start::{self, Setting};
 use crate::stimulus::{Manifest, StimulusSet};
 
@@ -125,10 +126,13 @@ impl Application {
 
     /// Reads who has taken part; the folder changes only between sessions.
     fn count_participants(&mut self) {
-        let conditions = start::conditions(&self.setup.manifest);
-        self.participants =
-            start_page::participants(&self.setup.study, &self.setup.protocol, &conditions)
-                .map_err(|error| error.to_string());
+        let setup = &self.setup;
+        self.participants = start::conditions(&setup.protocol, &setup.manifest)
+            .map_err(|error| error.to_string())
+            .and_then(|conditions| {
+                start_page::participants(&setup.study, &setup.protocol, &conditions)
+                    .map_err(|error| error.to_string())
+            });
     }
 
     fn start_page(&mut self, ui: &mut Ui) {
@@ -234,17 +238,22 @@ impl Application {
             // With one frame in flight and vertical sync, light follows the call
             // within the refresh it waited for and the one that scans it out.
             onset_uncertainty_ms: display.refresh_hz.map(|hz| 2000.0 / hz),
+            display: DisplayOnRecord::default(),
             input_device: InputDevice::Keyboard,
+            language: setup.protocol.language,
         };
         let clock = (self.make_clock)();
         let session = start::start(&setup.protocol, &setup.manifest, &enrolment, &setting)
             .map_err(|error| error.to_string())?;
-        let pictures = Pictures::new(setup.stimuli.clone(), &setup.manifest, session.plan());
+        let exhibits =
+            start::exhibits(&setup.protocol, &setup.manifest).map_err(|error| error.to_string())?;
+        let folder = setup.stimuli.clone();
+        let pictures = Pictures::new(folder, &setup.manifest, &exhibits, session.plan());
         Ok(Sitting::new(
             session,
             Rc::clone(&self.protocol),
             clock,
-            Box::new(move |effect| start::perform(effect, &mut enrolment.log)),
+            Box::new(move |effect| start::perform(effect, &mut enrolment)),
             pictures,
             self.image_px(),
         ))

@@ -12,6 +12,7 @@
 //! ```
 
 pub mod application;
+pub mod arrangement;
 pub mod browser;
 pub mod clock;
 pub mod display;

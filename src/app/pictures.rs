@@ -1,5 +1,5 @@
 //! The images of the trial that is on, decoded ahead of it; never more than one
-//! trial's two.
+//! trial's.
 
 use std::path::PathBuf;
 use std::sync::mpsc::{self, Receiver, TryRecvError};
@@ -7,19 +7,20 @@ use std::sync::mpsc::{self, Receiver, TryRecvError};
 use eframe::egui::{Context, TextureHandle};
 
 use super::stimulus_view;
-use crate::protocol::{Position, SessionPlan};
+use crate::protocol::{Exhibit, SessionPlan, Trial};
+use crate::session::start;
 use crate::stimulus::Manifest;
 use crate::stimulus::manifest::{ImageRecord, Picture};
 
 /// The images of one session.
 pub struct Pictures {
     folder: PathBuf,
-    /// For each trial: its two images, in the order shown.
-    trials: Vec<[ImageRecord; 2]>,
+    /// For each trial: its images by place, then the reference if there is one.
+    trials: Vec<Vec<ImageRecord>>,
     held: Held,
 }
 
-type Decoded = Result<[Picture; 2], String>;
+type Decoded = Result<Vec<Picture>, String>;
 
 enum Held {
     Nothing,
@@ -29,7 +30,7 @@ enum Held {
     },
     Ready {
         trial: usize,
-        textures: [TextureHandle; 2],
+        textures: Vec<TextureHandle>,
     },
     Failed {
         trial: usize,
@@ -49,29 +50,20 @@ impl Held {
 }
 
 impl Pictures {
-    /// The images of a plan over the set in `folder`; nothing is read yet. A
-    /// condition that the manifest lacks shows as a failure of its trial.
+    /// The images of a plan over the set in `folder`; nothing is read yet. `exhibits` are
+    /// those the plan was made of. What the manifest lacks shows as a failure of its trial.
     #[must_use]
-    pub fn new(folder: PathBuf, manifest: &Manifest, plan: &SessionPlan) -> Self {
-        let images = |condition: &str, reversed: bool| {
-            let pair = manifest
-                .pairs
-                .iter()
-                .find(|pair| pair.condition == condition)?;
-            let base = [pair.first.clone(), pair.second.clone()];
-            let [first, second] = base;
-            Some(if reversed {
-                [second, first]
-            } else {
-                [first, second]
-            })
-        };
+    pub fn new(
+        folder: PathBuf,
+        manifest: &Manifest,
+        exhibits: &[Exhibit],
+        plan: &SessionPlan,
+    ) -> Self {
+        let trials = plan.trials.iter();
         Self {
             folder,
-            trials: plan
-                .trials
-                .iter()
-                .map_while(|trial| images(&plan.conditions[trial.condition].id, trial.reversed))
+            trials: trials
+                .map(|trial| images(manifest, exhibits, trial).unwrap_or_default())
                 .collect(),
             held: Held::Nothing,
         }
@@ -105,33 +97,27 @@ impl Pictures {
         self.held = Held::Nothing;
     }
 
-    /// One image of a trial. Waits for the decoder if it is not done.
+    /// The images of a trial by place, then the reference if there is one. Waits for the
+    /// decoder if it is not done.
     ///
     /// # Errors
-    /// Why there is none, for the experimenter.
-    pub fn texture(
-        &mut self,
-        ctx: &Context,
-        trial: usize,
-        position: Position,
-    ) -> Result<&TextureHandle, &str> {
+    /// Why there are none, for the experimenter.
+    pub fn textures(&mut self, ctx: &Context, trial: usize) -> Result<&[TextureHandle], &str> {
         self.prepare(ctx, trial);
         if let Held::Decoding { decoder, .. } = &self.held {
             let decoded = decoder.recv().map_err(|_| ());
             self.settle(ctx, trial, decoded);
         }
         match &self.held {
-            Held::Ready { textures, .. } => Ok(match position {
-                Position::First => &textures[0],
-                Position::Second => &textures[1],
-            }),
+            Held::Ready { textures, .. } => Ok(textures),
             Held::Failed { detail, .. } => Err(detail),
             Held::Nothing | Held::Decoding { .. } => Err("the image was not decoded"),
         }
     }
 
     fn decode(&mut self, ctx: &Context, trial: usize) {
-        let Some(images) = self.trials.get(trial).cloned() else {
+        let images = self.trials.get(trial).cloned().unwrap_or_default();
+        if images.is_empty() {
             self.held = Held::Failed {
                 trial,
                 detail: format!("the stimulus set has no images for trial {}", trial + 1),
@@ -142,7 +128,7 @@ impl Pictures {
         let (sender, decoder) = mpsc::channel();
         std::thread::spawn(move || {
             let load = |image: &ImageRecord| image.load(&folder).map_err(|e| e.to_string());
-            let decoded = load(&images[0]).and_then(|first| Ok([first, load(&images[1])?]));
+            let decoded = images.iter().map(load).collect();
             // Nobody listens any more once the session has gone on without them.
             if sender.send(decoded).is_ok() {
                 // Wakes the interface, so that the textures go to the GPU now and
@@ -160,7 +146,10 @@ impl Pictures {
         self.held = match decoded {
             Ok(pictures) => Held::Ready {
                 trial,
-                textures: pictures.map(|picture| stimulus_view::upload(ctx, "stimulus", &picture)),
+                textures: pictures
+                    .iter()
+                    .map(|picture| stimulus_view::upload(ctx, "stimulus", picture))
+                    .collect(),
             },
             Err(detail) => {
                 tracing::error!(trial, detail, "cannot show a stimulus");
@@ -168,4 +157,15 @@ impl Pictures {
             }
         };
     }
+}
+
+/// The images of a trial, by place, and the reference; `None` if one is not in the manifest.
+fn images(manifest: &Manifest, exhibits: &[Exhibit], trial: &Trial) -> Option<Vec<ImageRecord>> {
+    let exhibit = exhibits.get(trial.condition)?;
+    let by_place = trial.places.iter().map(|&place| exhibit.images.get(place));
+    let reference = exhibit.reference.iter().map(Some);
+    by_place
+        .chain(reference)
+        .map(|at| start::image(manifest, *at?).cloned())
+        .collect()
 }

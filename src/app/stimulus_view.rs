@@ -102,6 +102,31 @@ pub fn paint_picture(ctx: &Context, texture: &TextureHandle, surround: u8) -> Re
     Ok(())
 }
 
+/// Shows pictures with their upper left pixels at `corners`, one grey level round them.
+pub fn paint_pictures(ctx: &Context, pictures: &[(&TextureHandle, SizePx)], surround: u8) {
+    paint_grey(ctx, surround);
+    for (texture, corner_px) in pictures {
+        let mut mesh = Mesh::with_texture(texture.id());
+        mesh.add_rect_with_uv(
+            rect_at(ctx, *corner_px, size_px(texture)),
+            Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0)),
+            Color32::WHITE,
+        );
+        background(ctx).add(mesh);
+    }
+}
+
+/// A rectangle of whole pixels, in points.
+#[must_use]
+pub fn rect_at(ctx: &Context, corner_px: SizePx, size_px: SizePx) -> Rect {
+    let far_px = [corner_px[0] + size_px[0], corner_px[1] + size_px[1]];
+    // f32 holds points to better than 1/1000 pixel, and nearest sampling at pixel
+    // centres forgives half of one.
+    let scale = ctx.pixels_per_point();
+    let point = |px: SizePx| Pos2::new(px[0] as f32 / scale, px[1] as f32 / scale);
+    Rect::from_min_max(point(corner_px), point(far_px))
+}
+
 /// Size of a texture, pixels.
 #[must_use]
 pub fn size_px(texture: &TextureHandle) -> SizePx {
@@ -113,12 +138,7 @@ pub fn size_px(texture: &TextureHandle) -> SizePx {
 /// The middle `picture_px` of the surface, in points.
 fn place(ctx: &Context, picture_px: SizePx) -> Result<Rect, TooSmall> {
     let corner_px = centred_px(surface_px(ctx), picture_px)?;
-    let far_px = [corner_px[0] + picture_px[0], corner_px[1] + picture_px[1]];
-    // f32 holds points to better than 1/1000 pixel, and nearest sampling at pixel
-    // centres forgives half of one.
-    let scale = ctx.pixels_per_point();
-    let point = |px: SizePx| Pos2::new(px[0] as f32 / scale, px[1] as f32 / scale);
-    Ok(Rect::from_min_max(point(corner_px), point(far_px)))
+    Ok(rect_at(ctx, corner_px, picture_px))
 }
 
 fn background(ctx: &Context) -> Painter {

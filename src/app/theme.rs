@@ -157,6 +157,26 @@ pub fn primary_button(text: &str, min_size: egui::Vec2) -> egui::Button<'_> {
         .min_size(min_size)
 }
 
+/// One point of a scale: dark while it is the one chosen.
+pub fn point_button(
+    ui: &mut egui::Ui,
+    text: &str,
+    chosen: bool,
+    min_size: egui::Vec2,
+) -> egui::Response {
+    let (fill, ink) = if chosen { (45, 250) } else { (250, 20) };
+    let label = egui::RichText::new(text).color(Color32::from_gray(ink));
+    let response = ui.add(
+        egui::Button::new((egui::Atom::grow(), label, egui::Atom::grow()))
+            .fill(Color32::from_gray(fill))
+            .stroke(Stroke::new(1.0, Color32::BLACK))
+            .min_size(min_size),
+    );
+    response
+        .widget_info(|| egui::WidgetInfo::selected(egui::Role::RadioButton, true, chosen, text));
+    response
+}
+
 /// A light card that holds one group of facts.
 pub fn card() -> egui::Frame {
     egui::Frame::new()

@@ -141,7 +141,7 @@ fn observe(
         &prepared.protocol_text,
         &prepared.manifest,
     )
-    .map_err(session::failure_of_folder)?;
+    .map_err(session::failure_of_opening)?;
     let summary = Headless {
         study: &study,
         protocol: &prepared.protocol,

@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::Failure;
 use crate::config;
-use crate::protocol::{Condition, Protocol, SessionPlan};
+use crate::protocol::{Condition, Pair, Protocol, SessionPlan, exhibit};
 use crate::stimulus::StimulusSet;
 use crate::stimulus::set::SetCondition;
 
@@ -37,7 +37,7 @@ pub struct Order {
 pub fn run(args: &Order) -> Result<(), Failure> {
     let text = config::read(&args.protocol).map_err(Failure::bad_input)?;
     let mut protocol = Protocol::parse(&args.protocol, &text).map_err(Failure::bad_input)?;
-    let conditions = conditions(&protocol.stimulus_set(&args.protocol))?;
+    let conditions = conditions(&protocol, &protocol.stimulus_set(&args.protocol))?;
     protocol.seed = args.seed.unwrap_or(protocol.seed);
     let participants = args
         .participants
@@ -90,17 +90,17 @@ fn is_broken_pipe(failure: &Failure) -> bool {
 }
 
 /// The conditions of a stimulus set, which need not be rendered for this.
-fn conditions(set: &Path) -> Result<Vec<Condition>, Failure> {
+fn conditions(protocol: &Protocol, set: &Path) -> Result<Vec<Condition>, Failure> {
     let set = StimulusSet::load(set).map_err(Failure::bad_input)?;
-    let condition = |condition: &SetCondition| {
-        let [first_technique, second_technique] = condition.labels().map(str::to_owned);
-        Condition {
-            id: condition.id.clone(),
-            scene: condition.scene_id(&set).to_owned(),
-            first_technique,
-            second_technique,
-            hypothesis: condition.hypothesis.clone(),
-        }
+    let pair = |condition: &SetCondition| Pair {
+        id: condition.id.clone(),
+        scene: condition.scene_id(&set).to_owned(),
+        lighting: condition.validity.clone(),
+        techniques: condition.labels().map(str::to_owned),
+        image_sha256: Default::default(),
+        hypothesis: condition.hypothesis.clone(),
     };
-    Ok(set.conditions.iter().map(condition).collect())
+    let pairs: Vec<Pair> = set.conditions.iter().map(pair).collect();
+    let exhibits = exhibit::exhibits(protocol, &pairs).map_err(Failure::bad_input)?;
+    Ok(exhibits.into_iter().map(|it| it.condition).collect())
 }

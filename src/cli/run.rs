@@ -141,7 +141,7 @@ fn open_window(wanted: &InWindow<'_>) -> Result<(), Failure> {
         &prepared.protocol_text,
         &prepared.manifest,
     )
-    .map_err(failure_of_folder)?;
+    .map_err(failure_of_opening)?;
     app::run(app::Setup {
         protocol: prepared.protocol,
         protocol_path: wanted.protocol.to_owned(),
@@ -231,7 +231,7 @@ fn headless(args: &Run, prepared: &Prepared, verbosity: Verbosity) -> Result<(),
         &prepared.protocol_text,
         &prepared.manifest,
     )
-    .map_err(failure_of_folder)?
+    .map_err(failure_of_opening)?
     .pilot(args.pilot);
     let headless = Headless {
         study: &study,
@@ -262,8 +262,16 @@ fn headless(args: &Run, prepared: &Prepared, verbosity: Verbosity) -> Result<(),
     Ok(())
 }
 
+/// A protocol without a plan is the user's to mend, too.
+pub(super) fn failure_of_opening(error: start::OpenError) -> Failure {
+    match error {
+        start::OpenError::Record(error) => failure_of_folder(error),
+        start::OpenError::Plan(_) => Failure::bad_input(error),
+    }
+}
+
 /// A wrong folder or name is the user's to mend, a disk that fails is not.
-pub(super) fn failure_of_folder(error: RecordError) -> Failure {
+fn failure_of_folder(error: RecordError) -> Failure {
     match error {
         RecordError::Io { .. } | RecordError::Row { .. } => error.into(),
         _ => Failure::bad_input(error),

@@ -1,13 +1,16 @@
 //! A protocol: one TOML file that says what a study's participants go through.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::Key;
 use super::design::Design;
-use super::procedure::Procedure;
-use super::text::{StudyId, Text};
+use super::locale::Texts;
+use super::options::{Breaks, Catch, ImageTime, MetadataField, Practice, Reference, Scale};
+use super::procedure::{Procedure, TrialStart};
+use super::text::StudyId;
+use super::{Key, Language, Words, checks};
 use crate::config::quantity::{Milliseconds, SrgbLevel, quantity};
 use crate::config::{self, ConfigError};
 use crate::digest;
@@ -30,8 +33,38 @@ pub struct Protocol {
     pub planned_participants: Participants,
     /// The screen between the two images of a trial.
     pub grey: Grey,
-    /// Every sentence on the participant's screen.
+    /// How long an image stands, where time ends it.
+    #[serde(default)]
+    pub image: Option<ImageTime>,
+    /// How a trial begins; without, as the procedure has it.
+    #[serde(default)]
+    pub start_trial: Option<TrialStart>,
+    /// Whether "I cannot tell" is an answer.
+    #[serde(default)]
+    pub cannot_tell: bool,
+    /// What images are rated on.
+    #[serde(default)]
+    pub scales: Vec<Scale>,
+    /// What images are compared with.
+    #[serde(default)]
+    pub reference: Option<Reference>,
+    /// Trials to learn the procedure.
+    #[serde(default)]
+    pub practice: Option<Practice>,
+    /// Attention checks.
+    #[serde(default)]
+    pub catch: Option<Catch>,
+    /// Rests.
+    #[serde(default)]
+    pub breaks: Option<Breaks>,
+    /// Language of `texts`.
+    #[serde(default)]
+    pub language: Language,
+    /// Every sentence on the participant's screen that is this study's own.
     pub texts: Texts,
+    /// The same in other languages.
+    #[serde(default)]
+    pub translations: BTreeMap<Language, Texts>,
     /// The keys that answer.
     #[serde(default)]
     pub keys: Keys,
@@ -45,6 +78,9 @@ pub struct Protocol {
     /// SHA-256 of the file's bytes: the name of exactly this protocol in rows.
     #[serde(skip)]
     pub hash: String,
+    /// What is said in each of its languages, its own first.
+    #[serde(skip)]
+    words: Vec<Words>,
 }
 
 quantity! {
@@ -108,44 +144,6 @@ pub enum GreyArea {
     Screen,
 }
 
-/// Every sentence a participant reads. None may say what realism is: it would prime.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Texts {
-    /// Heading of the first screen.
-    pub title: Text,
-    /// The instructions; blank lines part paragraphs.
-    pub instructions: Text,
-    /// Button under the instructions.
-    pub begin: Text,
-    /// Heading of the page with the pairs.
-    pub menu: Text,
-    /// Button of a pair; `{n}` stands for its number from 1.
-    pub pair: Text,
-    /// The question after the second image.
-    pub question: Text,
-    /// Button for the image shown first.
-    pub answer_first: Text,
-    /// Button for the image shown second.
-    pub answer_second: Text,
-    /// Shown while the answer is written to disk.
-    pub saving: Text,
-    /// Shown when the answer could not be written: calm, asks to fetch the experimenter.
-    pub trouble: Text,
-    /// Thanks, at the end.
-    pub closing: Text,
-    /// Shown after the experimenter has ended the session early.
-    pub aborted: Text,
-}
-
-impl Texts {
-    /// Caption of the button of one pair; `index` counts from 0.
-    #[must_use]
-    pub fn pair_caption(&self, index: usize) -> String {
-        self.pair.replace("{n}", &(index + 1).to_string())
-    }
-}
-
 /// The participant's keys and the experimenter's chord.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "KeysAsWritten")]
@@ -156,6 +154,8 @@ pub struct Keys {
     pub answer_first: Key,
     /// Chooses the image shown second.
     pub answer_second: Key,
+    /// Says that there is no telling, where the protocol allows it.
+    pub cannot_tell: Key,
     /// Ends the session, together with Ctrl and Shift.
     pub abort_with_ctrl_shift: Key,
 }
@@ -168,23 +168,45 @@ struct KeysAsWritten {
     go_on: Key,
     answer_first: Key,
     answer_second: Key,
+    #[serde(default = "default_cannot_tell")]
+    cannot_tell: Key,
     abort_with_ctrl_shift: Key,
+}
+
+fn default_cannot_tell() -> Key {
+    Key::Symbol('0')
 }
 
 impl TryFrom<KeysAsWritten> for Keys {
     type Error = String;
 
     fn try_from(keys: KeysAsWritten) -> Result<Self, String> {
-        if keys.answer_first == keys.answer_second {
-            return Err(format!(
-                "answer_first and answer_second are both \"{}\"; they must differ",
-                keys.answer_first
-            ));
+        for (one, other, names) in [
+            (
+                keys.answer_first,
+                keys.answer_second,
+                "answer_first and answer_second",
+            ),
+            (
+                keys.answer_first,
+                keys.cannot_tell,
+                "answer_first and cannot_tell",
+            ),
+            (
+                keys.answer_second,
+                keys.cannot_tell,
+                "answer_second and cannot_tell",
+            ),
+        ] {
+            if one == other {
+                return Err(format!("{names} are both \"{one}\"; they must differ"));
+            }
         }
         Ok(Self {
             go_on: keys.go_on,
             answer_first: keys.answer_first,
             answer_second: keys.answer_second,
+            cannot_tell: keys.cannot_tell,
             abort_with_ctrl_shift: keys.abort_with_ctrl_shift,
         })
     }
@@ -196,22 +218,10 @@ impl Default for Keys {
             go_on: Key::Space,
             answer_first: Key::Symbol('1'),
             answer_second: Key::Symbol('2'),
+            cannot_tell: default_cannot_tell(),
             abort_with_ctrl_shift: Key::Symbol('Q'),
         }
     }
-}
-
-/// One optional question about the participant.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct MetadataField {
-    /// Column name.
-    pub id: StudyId,
-    /// The question.
-    pub label: Text,
-    /// Answers to choose from; empty for free text.
-    #[serde(default)]
-    pub choices: Vec<Text>,
 }
 
 impl Protocol {
@@ -222,7 +232,46 @@ impl Protocol {
     pub fn parse(path: &Path, text: &str) -> Result<Self, ConfigError> {
         let mut protocol: Self = config::parse(path, text)?;
         protocol.hash = digest::sha256_hex(text.as_bytes());
+        if let Some(flaw) = checks::flaw(&protocol) {
+            return Err(ConfigError::whole_file(path, &flaw));
+        }
+        protocol.words = std::iter::once((&protocol.language, &protocol.texts))
+            .chain(&protocol.translations)
+            .map(|(&language, texts)| Words::new(texts, language))
+            .collect::<Result<_, _>>()?;
         Ok(protocol)
+    }
+
+    /// The languages a session can be held in, the protocol's own first.
+    pub fn languages(&self) -> impl Iterator<Item = Language> {
+        let others = self.translations.keys().copied();
+        std::iter::once(self.language).chain(others)
+    }
+
+    /// Every sentence of a session in one of the protocol's languages; in its own where it
+    /// has no translation.
+    #[must_use]
+    pub fn words(&self, language: Language) -> Words {
+        let known = self.words.iter().find(|words| words.language == language);
+        // A parsed protocol has the words of its own language.
+        known.or(self.words.first()).cloned().unwrap_or_default()
+    }
+
+    /// Whether a condition is named for practice or as a catch trial, and so not of the
+    /// main part.
+    #[must_use]
+    pub fn names(&self, condition: &str) -> bool {
+        let practice = self.practice.iter().flat_map(|it| &it.conditions);
+        let catch = self.catch.iter().flat_map(|it| &it.trials);
+        practice
+            .chain(catch.map(|trial| &trial.condition))
+            .any(|named| named == condition)
+    }
+
+    /// How a trial begins.
+    #[must_use]
+    pub fn trial_start(&self) -> TrialStart {
+        self.start_trial.unwrap_or(self.procedure.trial_start)
     }
 
     /// The stimulus set's config, given where the protocol's own file is.
@@ -241,6 +290,12 @@ mod tests {
 
     const THESIS: &str = include_str!("../../protocols/thesis-2010.toml");
 
+    /// Parts of words, English, German and Danish, that say what to look for.
+    const PRIMERS: &[&str] = &[
+        "light", "shad", "dark", "ambient", "occlu", "corner", "depth", "photo", "licht", "schatt",
+        "dunkel", "ecke", "tiefe", "foto", "lys", "skygge", "mørk", "hjørne", "dybde",
+    ];
+
     fn parse(text: &str) -> Result<Protocol, String> {
         Protocol::parse(Path::new("p.toml"), text).map_err(|error| error.to_string())
     }
@@ -253,7 +308,8 @@ mod tests {
         assert_eq!(protocol.grey.duration_ns(), 2_000_000_000);
         assert_eq!(protocol.grey.level_srgb.get(), 128);
         assert_eq!(protocol.planned_participants.get(), 36);
-        assert_eq!(protocol.texts.pair_caption(6), "Pair 7");
+        let words = protocol.words(Language::En);
+        assert_eq!(words.pair_caption(6), "Pair 7");
         assert_eq!(
             protocol.stimulus_set(Path::new("protocols/thesis-2010.toml")),
             Path::new("protocols/../stimuli/thesis-2010.toml")
@@ -263,29 +319,15 @@ mod tests {
     /// To name what differs between the images would tell people what to look for.
     #[test]
     fn no_text_of_the_thesis_protocol_says_what_realism_is() {
-        let texts = parse(THESIS).unwrap().texts;
-        let all = [
-            &texts.title,
-            &texts.instructions,
-            &texts.begin,
-            &texts.menu,
-            &texts.pair,
-            &texts.question,
-            &texts.answer_first,
-            &texts.answer_second,
-            &texts.saving,
-            &texts.trouble,
-            &texts.closing,
-            &texts.aborted,
-        ];
-        for text in all {
-            for primer in [
-                "light", "shad", "dark", "ambient", "occlu", "corner", "depth", "photo",
-            ] {
-                assert!(
-                    !text.to_lowercase().contains(primer),
-                    "{primer:?} in {text:?}"
-                );
+        let protocol = parse(THESIS).unwrap();
+        for language in protocol.languages() {
+            for text in protocol.words(language).all() {
+                for primer in PRIMERS {
+                    assert!(
+                        !text.to_lowercase().contains(primer),
+                        "{primer:?} in {text:?}"
+                    );
+                }
             }
         }
     }

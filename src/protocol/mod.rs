@@ -3,13 +3,19 @@
 //! Everything here is a pure function of (protocol, seed, slot): no clock, no
 //! disk, no window. The same three give the same session on any machine, forever.
 
+mod checks;
 pub mod config;
 pub mod design;
+pub mod exhibit;
 pub mod key;
+pub mod locale;
+pub mod options;
 pub mod plan;
 pub mod procedure;
 pub mod text;
 
 pub use config::Protocol;
+pub use exhibit::{Condition, Exhibit, Pair};
 pub use key::Key;
-pub use plan::{Condition, Phase, PlanError, Position, SessionPlan, Trial};
+pub use locale::{Language, Words};
+pub use plan::{Pause, Phase, PlanError, Position, SessionPlan, Trial};

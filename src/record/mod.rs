@@ -9,9 +9,11 @@
 //! RESULTS/materials/protocol.toml    that protocol, as it was
 //! RESULTS/dataset_description.json   Psych-DS: what every column means
 //! RESULTS/slots/                     who has which place in the design, and what became of it
+//! RESULTS/participants/              what participants agreed to and chose to tell of themselves
 //! RESULTS/data/…_data.csv            one file a participant's session, one row a trial
 //! ```
 
+pub mod about;
 pub mod columns;
 pub mod description;
 pub mod error;
@@ -28,12 +30,13 @@ pub mod study;
 #[cfg(test)]
 pub(crate) mod tests;
 
+pub use about::{About, AboutAnswer};
 pub use error::RecordError;
 pub use identity::StudyIdentity;
 pub use log::RowLog;
 pub use participant::ParticipantId;
 pub use read::{Rows, Warning, read_folder, read_rows};
-pub use row::{InputDevice, OnsetMethod, Outcome, TrialRow};
+pub use row::{DisplayVerdict, InputDevice, OnsetMethod, Outcome, Response, TrialRow};
 pub use slots::Release;
 pub use study::{Enrolment, Standing, Study};
 

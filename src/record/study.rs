@@ -7,7 +7,8 @@ use time::format_description::well_known::Rfc3339;
 
 use super::slots::{self, Claim, ClaimRecord, Release, SegmentRecord, Slots};
 use super::{
-    ParticipantId, RecordError, RowLog, StudyIdentity, TrialRow, description, files, read,
+    About, ParticipantId, RecordError, RowLog, StudyIdentity, TrialRow, about, description, files,
+    read,
 };
 
 /// An open results folder.
@@ -41,6 +42,10 @@ pub struct Enrolment {
     pub warnings: Vec<String>,
     /// Where the rows go.
     pub log: RowLog,
+    /// What the participant agreed to and told, if that was asked already.
+    pub about: Option<About>,
+    /// The results folder.
+    pub results: PathBuf,
 }
 
 /// Where one participant stands.
@@ -141,6 +146,8 @@ impl Study {
             interrupted_utc: None,
             warnings: Vec::new(),
             log,
+            about: None,
+            results: self.folder.clone(),
         })
     }
 
@@ -201,6 +208,8 @@ impl Study {
             interrupted_utc,
             warnings: rows.warnings.iter().map(ToString::to_string).collect(),
             log,
+            about: about::load(&self.folder, participant)?,
+            results: self.folder.clone(),
         })
     }
 

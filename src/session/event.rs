@@ -1,6 +1,7 @@
 //! What happens to a session, and what it asks for in return.
 
 use crate::protocol::Position;
+use crate::record::{About, AboutAnswer, TrialRow};
 
 /// Nanoseconds on the session's one monotonic clock, which starts at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -12,9 +13,15 @@ pub struct SessionTime {
 /// Something that happened. Every event comes with the time it was received.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Event {
-    /// The button under the instructions.
+    /// The participant agrees to take part.
+    Agree,
+    /// The participant does not.
+    Decline,
+    /// What the participant chose to tell, in the protocol's order.
+    Told(Vec<AboutAnswer>),
+    /// The button under a page of text.
     Begin,
-    /// The button of one pair.
+    /// The button of one trial.
     StartPair(usize),
     /// The key that ends an image (space).
     Continue,
@@ -26,13 +33,13 @@ pub enum Event {
     Shown,
     /// Time has passed (the view was woken, nothing else happened).
     Tick,
-    /// The participant's choice.
-    Answer(Position),
-    /// The row of [`Effect::StoreRow`] is on disk, synced.
+    /// The participant's answer.
+    Answer(Answer),
+    /// What the last effect asked to store is on disk, synced.
     RowStored,
     /// It is not, and why.
     StoreFailed(String),
-    /// Try to store the same row again.
+    /// Try to store the same again.
     RetryStore,
     /// The window lost the keyboard focus.
     FocusLost,
@@ -46,9 +53,25 @@ pub enum Event {
     Abort,
 }
 
-/// What the driver of a session must do.
+/// An answer to what a trial asks.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Answer {
+    /// One of two images.
+    Choice(Position),
+    /// Neither, where the protocol allows it.
+    CannotTell,
+    /// One rating a scale, in the protocol's order, from 1.
+    Ratings(Vec<u32>),
+    /// Places of the images on the screen, the best image first.
+    Ranking(Vec<usize>),
+}
+
+/// What the driver of a session must do, and then answer with [`Event::RowStored`] or
+/// [`Event::StoreFailed`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Effect {
-    /// Append this row, sync it, then send [`Event::RowStored`] or [`Event::StoreFailed`].
-    StoreRow(Box<crate::record::TrialRow>),
+    /// Append this row and sync it.
+    StoreRow(Box<TrialRow>),
+    /// Put on record what the participant agreed to and told.
+    StoreAbout(Box<About>),
 }

@@ -5,13 +5,11 @@ use std::path::PathBuf;
 
 use time::OffsetDateTime;
 
-use super::observer::{Behaviour, Observer, Scripted};
+use super::observer::{Behaviour, Observer, Question, Scripted};
 use super::start::{self, Setting, StartError};
-use super::{Effect, Event, Screen, Session, SessionTime};
-use crate::protocol::{Position, Protocol};
-use crate::record::{
-    Enrolment, InputDevice, OnsetMethod, ParticipantId, RecordError, RowLog, Study,
-};
+use super::{DisplayOnRecord, Effect, Event, Screen, Session, SessionTime};
+use crate::protocol::Protocol;
+use crate::record::{Enrolment, InputDevice, OnsetMethod, ParticipantId, RecordError, Study};
 use crate::stimulus::Manifest;
 
 /// A headless run that could not go on.
@@ -137,61 +135,62 @@ impl Headless<'_> {
             started_utc: now,
             onset_method: OnsetMethod::Virtual,
             onset_uncertainty_ms: Some(0.0),
+            display: DisplayOnRecord::default(),
             input_device: InputDevice::Scripted,
+            language: self.protocol.language,
         };
         let mut session = start::start(self.protocol, self.manifest, &enrolment, &setting)?;
         let mut driver = Driver {
             observer: &*self.scripted.observer,
+            protocol: self.protocol,
             now: SessionTime::default(),
         };
         let mut rows = 0;
         while !session.is_over() {
-            if let Screen::StorageTrouble { trial, detail } = session.screen() {
+            if let Screen::StorageTrouble { detail } = session.screen() {
                 return Err(HeadlessError::Store {
                     participant: enrolment.participant.to_string(),
-                    trial: *trial,
+                    trial: session.stored(),
                     detail: detail.clone(),
                 });
             }
             for effect in driver.act(&mut session) {
-                rows += store(
-                    &effect,
-                    &mut enrolment.log,
-                    &mut session,
-                    driver.now,
-                    report,
-                );
+                rows += store(&effect, &mut enrolment, &mut session, driver.now, report);
             }
         }
         Ok(rows)
     }
 }
 
-/// Stores a row, tells the session and, if it is on disk, the caller.
+/// Stores what an effect asks, tells the session and, if it is a row on disk, the
+/// caller. Gives the number of rows.
 fn store(
     effect: &Effect,
-    log: &mut RowLog,
+    enrolment: &mut Enrolment,
     session: &mut Session,
     now: SessionTime,
     report: &mut impl FnMut(Progress),
 ) -> u64 {
-    let Effect::StoreRow(row) = effect;
-    let outcome = start::perform(effect, log);
+    let outcome = start::perform(effect, enrolment);
     let stored = outcome == Event::RowStored;
     session.handle(outcome, now);
-    if stored {
-        report(Progress::Stored {
-            row_id: &row.row_id,
-            path: log.path(),
-        });
+    match effect {
+        Effect::StoreRow(row) if stored => {
+            report(Progress::Stored {
+                row_id: &row.row_id,
+                path: enrolment.log.path(),
+            });
+            1
+        }
+        _ => 0,
     }
-    u64::from(stored)
 }
 
 /// An observer before a screen, with a clock that only moves when it acts.
 #[derive(Debug)]
 pub struct Driver<'a> {
     observer: &'a dyn Observer,
+    protocol: &'a Protocol,
     now: SessionTime,
 }
 
@@ -201,19 +200,22 @@ impl Driver<'_> {
     fn act(&mut self, session: &mut Session) -> Vec<Effect> {
         session.handle(Event::Shown, self.now);
         let (wait_ns, event) = match session.screen() {
-            Screen::Instructions => (0, Event::Begin),
-            Screen::PairMenu { next, .. } => (0, Event::StartPair(*next)),
-            Screen::Image { trial, position } => {
-                let behaviour = self.behaviour(session, *trial);
-                let look_ns = match position {
-                    Position::First => behaviour.first_look_ns,
-                    Position::Second => behaviour.second_look_ns,
-                };
-                (look_ns, Event::Continue)
+            Screen::Consent => (0, Event::Agree),
+            Screen::Form => (0, Event::Told(Vec::new())),
+            Screen::Instructions | Screen::Pause(_) => (0, Event::Begin),
+            Screen::PairMenu { next, .. } | Screen::Ready { next, .. } => {
+                (0, Event::StartPair(*next))
             }
-            Screen::Question { trial } => {
+            Screen::Image { trial, place } => {
                 let behaviour = self.behaviour(session, *trial);
-                (behaviour.decision_ns, Event::Answer(behaviour.choice))
+                (behaviour.looks_ns[*place], Event::Continue)
+            }
+            Screen::Question { trial }
+            | Screen::Comparison { trial }
+            | Screen::Rating { trial }
+            | Screen::Ranking { trial } => {
+                let behaviour = self.behaviour(session, *trial);
+                (behaviour.decision_ns, Event::Answer(behaviour.answer))
             }
             _ => (0, Event::Tick),
         };
@@ -225,6 +227,7 @@ impl Driver<'_> {
 
     fn behaviour(&self, session: &Session, trial: usize) -> Behaviour {
         let plan = session.plan();
-        self.observer.behave(plan, &plan.trials[trial])
+        let question = Question::new(self.protocol, plan, &plan.trials[trial]);
+        self.observer.behave(&question)
     }
 }

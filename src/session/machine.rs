@@ -2,25 +2,26 @@
 
 use super::info::SessionInfo;
 use super::trial_log::TrialLog;
-use super::{Effect, Event, Screen, SessionTime};
-use crate::protocol::procedure::{Step, Until};
-use crate::protocol::{Position, Protocol, SessionPlan};
-use crate::record::TrialRow;
+use super::{Answer, Effect, Event, Screen, SessionTime, answers};
+use crate::digest;
+use crate::protocol::options::Scale;
+use crate::protocol::procedure::{Ask, Step, TrialStart, Until};
+use crate::protocol::{Language, Pause, Protocol, SessionPlan, Trial};
+use crate::record::{About, AboutAnswer};
 
-/// One participant's session, from the instructions to the thanks.
+/// One participant's session, from the consent to the thanks.
 ///
 /// A driver draws [`Session::screen`], hands every event to [`Session::handle`]
 /// with the time it was received, does what the effects say, and sends
 /// [`Event::Tick`] at [`Session::wake_at`]. Events that have no meaning on the
 /// current screen are ignored, so a driver may send what it gets.
 ///
-/// The images, the grey and the question take no input before their first
+/// The images, the grey and the questions take no input before their first
 /// [`Event::Shown`]: what the participant has not seen cannot be answered.
 #[derive(Debug, Clone)]
 pub struct Session {
     plan: SessionPlan,
-    identity: Identity,
-    steps: Vec<Step>,
+    rules: Rules,
     info: SessionInfo,
     state: State,
     screen: Screen,
@@ -32,55 +33,95 @@ pub struct Session {
     /// Latest time seen: time never runs backwards.
     now: SessionTime,
     trial_log: TrialLog,
-    /// The answer that is not on disk yet.
-    unsaved: Option<Box<TrialRow>>,
+    /// What is being agreed to and told.
+    about: About,
+    /// What is not on disk yet.
+    unsaved: Option<Effect>,
     stored: usize,
 }
 
-/// What the protocol puts into every row.
+/// What the protocol says, as far as a running session needs it.
 #[derive(Debug, Clone)]
-pub(super) struct Identity {
+pub(super) struct Rules {
     pub study_id: String,
     pub protocol_hash: String,
+    pub procedure: &'static str,
+    pub cannot_tell: bool,
+    pub scales: Vec<Scale>,
+    steps: Vec<Step>,
+    trial_start: TrialStart,
+    /// SHA-256 of the text to agree to, in the session's language.
+    consent_sha256: Option<String>,
+    asks_about: bool,
+}
+
+impl Rules {
+    fn new(protocol: &Protocol, info: &SessionInfo) -> Self {
+        let translated = protocol.translations.get(&info.language);
+        let consent = translated.unwrap_or(&protocol.texts).consent.as_ref();
+        Self {
+            study_id: protocol.study_id.to_string(),
+            protocol_hash: protocol.hash.clone(),
+            procedure: protocol.procedure.name,
+            cannot_tell: protocol.cannot_tell,
+            scales: protocol.scales.clone(),
+            steps: (protocol.procedure.steps)(protocol),
+            trial_start: protocol.trial_start(),
+            consent_sha256: consent.map(|text| digest::sha256_hex(text.as_bytes())),
+            asks_about: !protocol.metadata.is_empty(),
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum State {
+    Consent,
+    Form,
     Instructions,
-    Menu,
+    Pause,
+    Start,
     Step(usize),
-    /// Waiting for the row; `abort` remembers a chord pressed meanwhile.
+    /// Waiting for the disk; `abort` remembers a chord pressed meanwhile.
     Saving {
         abort: bool,
     },
     Trouble,
     Closing,
+    Declined,
     Aborted,
 }
 
 impl Session {
-    /// A session that stands at its instructions. With
+    /// A session that stands at its first page. With
     /// [`SessionInfo::answered`] it goes on after the trials on record.
     #[must_use]
     pub fn new(plan: SessionPlan, protocol: &Protocol, info: SessionInfo) -> Self {
-        let stored = info.answered.min(plan.trials.len());
+        let rules = Rules::new(protocol, &info);
+        let (state, screen) = match (&rules.consent_sha256, rules.asks_about) {
+            (Some(_), _) if !info.has_told => (State::Consent, Screen::Consent),
+            (None, true) if !info.has_told => (State::Form, Screen::Form),
+            _ => (State::Instructions, Screen::Instructions),
+        };
         Self {
-            steps: (protocol.procedure.steps)(protocol),
-            identity: Identity {
-                study_id: protocol.study_id.to_string(),
-                protocol_hash: protocol.hash.clone(),
-            },
             trial_log: TrialLog::new(info.input_device),
+            stored: info.answered.min(plan.trials.len()),
+            about: About {
+                participant: info.participant_id.clone(),
+                language: info.language,
+                consent_sha256: None,
+                consented_utc: None,
+                answers: Vec::new(),
+            },
             plan,
+            rules,
             info,
-            state: State::Instructions,
-            screen: Screen::Instructions,
+            state,
+            screen,
             screen_serial: 0,
             entered_at: SessionTime::default(),
             shown_at: None,
             now: SessionTime::default(),
             unsaved: None,
-            stored,
         }
     }
 
@@ -109,7 +150,7 @@ impl Session {
         let State::Step(step) = self.state else {
             return None;
         };
-        let duration_ns = match self.steps[step] {
+        let duration_ns = match self.rules.steps[step] {
             Step::Grey { duration_ns }
             | Step::Image {
                 until: Until::Elapsed { duration_ns },
@@ -120,6 +161,12 @@ impl Session {
         self.shown_at.map(|onset| SessionTime {
             ns: onset.ns.saturating_add(duration_ns),
         })
+    }
+
+    /// Language of the participant's screens.
+    #[must_use]
+    pub fn language(&self) -> Language {
+        self.info.language
     }
 
     /// The plan this session follows.
@@ -137,7 +184,22 @@ impl Session {
     /// True once nothing more can happen: thanks said, or ended early.
     #[must_use]
     pub fn is_over(&self) -> bool {
-        matches!(self.state, State::Closing | State::Aborted)
+        matches!(
+            self.state,
+            State::Closing | State::Declined | State::Aborted
+        )
+    }
+
+    /// What the trial on the screen asks, where it asks.
+    #[must_use]
+    pub fn ask(&self) -> Option<Ask> {
+        match self.state {
+            State::Step(step) => match self.rules.steps[step] {
+                Step::Ask(ask) => Some(ask),
+                _ => None,
+            },
+            _ => None,
+        }
     }
 
     /// Takes one event and the time it was received.
@@ -151,47 +213,44 @@ impl Session {
                 return Vec::new();
             }
         }
-        match (self.state, event) {
-            (State::Closing | State::Aborted, _) => Vec::new(),
-            (State::Saving { .. }, Event::Abort) => {
-                self.state = State::Saving { abort: true };
-                Vec::new()
+        if self.is_over() {
+            return Vec::new();
+        }
+        match event {
+            Event::Abort => self.abort(),
+            Event::Shown => self.shown(at),
+            Event::Agree | Event::Decline | Event::Told(_) => return self.preliminary(event),
+            Event::Begin => self.begin(),
+            Event::StartPair(index) if self.state == State::Start && index == self.stored => {
+                self.start_trial();
             }
-            (_, Event::Abort) => {
-                self.enter(State::Aborted, Screen::Aborted);
-                Vec::new()
+            Event::Continue => {
+                if let State::Step(step) = self.state
+                    && self.accepts_continue(step)
+                {
+                    self.next_step();
+                }
             }
-            (_, Event::Shown) => {
-                self.shown(at);
-                Vec::new()
+            Event::Answer(answer) => return self.answer(&answer),
+            Event::RowStored => {
+                if let State::Saving { abort } = self.state {
+                    self.is_stored(abort);
+                }
             }
-            (State::Instructions, Event::Begin) => {
-                self.next_trial();
-                Vec::new()
+            Event::StoreFailed(detail) if matches!(self.state, State::Saving { .. }) => {
+                self.enter(State::Trouble, Screen::StorageTrouble { detail });
             }
-            (State::Menu, Event::StartPair(index)) if index == self.stored => {
-                self.trial_log.start();
-                self.enter_step(0);
-                Vec::new()
-            }
-            (State::Step(step), Event::Continue) if self.accepts_continue(step) => {
-                self.next_step();
-                Vec::new()
-            }
-            (State::Step(step), Event::Answer(choice)) if self.accepts_answer(step) => {
-                self.answer(choice)
-            }
-            (State::Saving { abort }, Event::RowStored) => {
-                self.row_stored(abort);
-                Vec::new()
-            }
-            (State::Saving { .. }, Event::StoreFailed(detail)) => {
-                let trial = self.stored;
-                self.enter(State::Trouble, Screen::StorageTrouble { trial, detail });
-                Vec::new()
-            }
-            (State::Trouble, Event::RetryStore) => self.store(),
-            _ => Vec::new(),
+            Event::RetryStore if self.state == State::Trouble => return self.store(),
+            _ => {}
+        }
+        Vec::new()
+    }
+
+    fn abort(&mut self) {
+        if let State::Saving { abort } = &mut self.state {
+            *abort = true;
+        } else {
+            self.enter(State::Aborted, Screen::Aborted);
         }
     }
 
@@ -223,13 +282,13 @@ impl Session {
         let onset = at.max(self.entered_at);
         self.shown_at = Some(onset);
         if let State::Step(step) = self.state {
-            self.trial_log.onset(self.steps[step], onset);
+            self.trial_log.onset(self.rules.steps[step], onset);
         }
     }
 
     fn accepts_continue(&self, step: usize) -> bool {
         let self_paced = matches!(
-            self.steps[step],
+            self.rules.steps[step],
             Step::Image {
                 until: Until::Continue,
                 ..
@@ -238,8 +297,70 @@ impl Session {
         self_paced && self.shown_at.is_some()
     }
 
-    fn accepts_answer(&self, step: usize) -> bool {
-        self.steps[step] == Step::Question && self.shown_at.is_some()
+    /// Consent and questions about the participant.
+    fn preliminary(&mut self, event: Event) -> Vec<Effect> {
+        match (self.state, event) {
+            (State::Consent, Event::Decline) => {
+                self.enter(State::Declined, Screen::Declined);
+                Vec::new()
+            }
+            (State::Consent, Event::Agree) => {
+                self.about.consent_sha256 = self.rules.consent_sha256.clone();
+                self.about.consented_utc = Some(self.info.wall_clock_text(self.now));
+                if self.rules.asks_about {
+                    self.enter(State::Form, Screen::Form);
+                    return Vec::new();
+                }
+                self.tell(Vec::new())
+            }
+            (State::Form, Event::Told(answers)) => self.tell(answers),
+            _ => Vec::new(),
+        }
+    }
+
+    fn tell(&mut self, answers: Vec<AboutAnswer>) -> Vec<Effect> {
+        self.about.answers = answers;
+        self.unsaved = Some(Effect::StoreAbout(Box::new(self.about.clone())));
+        self.store()
+    }
+
+    /// The button under a page of text.
+    fn begin(&mut self) {
+        match self.state {
+            State::Instructions => self.next_trial(true),
+            State::Pause => self.offer_trial(),
+            _ => {}
+        }
+    }
+
+    /// The page before the next trial, if it has one; or the end. Nobody needs a rest
+    /// right after the instructions.
+    fn next_trial(&mut self, from_instructions: bool) {
+        let pause = self.next().map(|trial| trial.pause);
+        match pause {
+            None => self.enter(State::Closing, Screen::Closing),
+            Some(Some(Pause::Break)) if from_instructions => self.offer_trial(),
+            Some(Some(pause)) => self.enter(State::Pause, Screen::Pause(pause)),
+            Some(None) => self.offer_trial(),
+        }
+    }
+
+    fn next(&self) -> Option<&Trial> {
+        self.plan.trials.get(self.stored)
+    }
+
+    fn offer_trial(&mut self) {
+        let (next, total) = (self.stored, self.plan.trials.len());
+        match self.rules.trial_start {
+            TrialStart::Menu => self.enter(State::Start, Screen::PairMenu { next, total }),
+            TrialStart::Button => self.enter(State::Start, Screen::Ready { next, total }),
+            TrialStart::Itself => self.start_trial(),
+        }
+    }
+
+    fn start_trial(&mut self) {
+        self.trial_log.start();
+        self.enter_step(0);
     }
 
     fn next_step(&mut self) {
@@ -250,53 +371,54 @@ impl Session {
 
     fn enter_step(&mut self, step: usize) {
         let trial = self.stored;
-        let screen = match self.steps[step] {
-            Step::Image { position, .. } => Screen::Image { trial, position },
+        let screen = match self.rules.steps[step] {
+            Step::Image { place, .. } => Screen::Image { trial, place },
             Step::Grey { .. } => Screen::Grey { trial },
-            Step::Question => Screen::Question { trial },
+            Step::Ask(Ask::Choice) => Screen::Question { trial },
+            Step::Ask(Ask::CloserToReference) => Screen::Comparison { trial },
+            Step::Ask(Ask::Ratings) => Screen::Rating { trial },
+            Step::Ask(Ask::Ranking) => Screen::Ranking { trial },
         };
         self.enter(State::Step(step), screen);
     }
 
-    fn next_trial(&mut self) {
-        let total = self.plan.trials.len();
-        if self.stored < total {
-            let next = self.stored;
-            self.enter(State::Menu, Screen::PairMenu { next, total });
-        } else {
-            self.enter(State::Closing, Screen::Closing);
+    fn answer(&mut self, answer: &Answer) -> Vec<Effect> {
+        let Some(ask) = self.ask().filter(|_| self.shown_at.is_some()) else {
+            return Vec::new();
+        };
+        let Some(trial) = self.plan.trials.get(self.stored) else {
+            return Vec::new();
+        };
+        if !answers::fits(answer, ask, &self.rules, trial) {
+            return Vec::new();
         }
-    }
-
-    fn answer(&mut self, choice: Position) -> Vec<Effect> {
-        let trial = &self.plan.trials[self.stored];
-        let row = self.trial_log.row(
-            &self.plan,
-            trial,
-            &self.identity,
-            &self.info,
-            choice,
-            self.now,
-        );
-        self.unsaved = Some(Box::new(row));
+        let row = self
+            .trial_log
+            .row(&self.plan, trial, &self.rules, &self.info, self.now);
+        let row = answers::on_record(row, answer, &self.plan, trial, &self.rules);
+        self.unsaved = Some(Effect::StoreRow(Box::new(row)));
         self.store()
     }
 
     fn store(&mut self) -> Vec<Effect> {
-        let trial = self.stored;
-        self.enter(State::Saving { abort: false }, Screen::Saving { trial });
-        self.unsaved.iter().cloned().map(Effect::StoreRow).collect()
+        self.enter(State::Saving { abort: false }, Screen::Saving);
+        self.unsaved.iter().cloned().collect()
     }
 
-    fn row_stored(&mut self, abort: bool) {
-        self.unsaved = None;
-        self.stored += 1;
-        // Only the first row after a resume tells of the gap.
-        self.info.interrupted_utc = None;
+    fn is_stored(&mut self, abort: bool) {
+        let stored = self.unsaved.take();
+        let is_row = matches!(stored, Some(Effect::StoreRow(_)));
+        if is_row {
+            self.stored += 1;
+            // Only the first row after a resume tells of the gap.
+            self.info.interrupted_utc = None;
+        }
         if abort {
             self.enter(State::Aborted, Screen::Aborted);
+        } else if is_row {
+            self.next_trial(false);
         } else {
-            self.next_trial();
+            self.enter(State::Instructions, Screen::Instructions);
         }
     }
 }

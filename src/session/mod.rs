@@ -3,6 +3,7 @@
 //! every path of it can be tested; the application and the scripted observers
 //! drive the same [`Session`](machine::Session).
 
+mod answers;
 pub mod event;
 pub mod headless;
 pub mod info;
@@ -14,7 +15,7 @@ pub mod start;
 mod tests;
 mod trial_log;
 
-pub use event::{Effect, Event, SessionTime};
-pub use info::{PairHashes, SessionInfo};
+pub use event::{Answer, Effect, Event, SessionTime};
+pub use info::{DisplayOnRecord, ImageHashes, SessionInfo};
 pub use machine::Session;
 pub use screen::Screen;

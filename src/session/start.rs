@@ -5,12 +5,14 @@ use std::path::Path;
 
 use time::OffsetDateTime;
 
-use super::{Effect, Event, PairHashes, Session, SessionInfo};
-use crate::protocol::{Condition, PlanError, Protocol, SessionPlan};
+use super::{DisplayOnRecord, Effect, Event, ImageHashes, Session, SessionInfo};
+use crate::protocol::exhibit::{self, Exhibit, ImageOf};
+use crate::protocol::{Condition, Language, Pair, PlanError, Position, Protocol, SessionPlan};
+use crate::record::row::LIST_SEPARATOR;
 use crate::record::{
-    Enrolment, InputDevice, OnsetMethod, RecordError, RowLog, Study, StudyIdentity,
+    Enrolment, InputDevice, OnsetMethod, RecordError, Study, StudyIdentity, about,
 };
-use crate::stimulus::Manifest;
+use crate::stimulus::{ImageRecord, Manifest};
 
 /// Where and how a session runs.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,8 +23,23 @@ pub struct Setting {
     pub onset_method: OnsetMethod,
     /// How far they may lie from the light of the display, either way.
     pub onset_uncertainty_ms: Option<f64>,
+    /// The display as it was measured.
+    pub display: DisplayOnRecord,
     /// The device answers come from at first.
     pub input_device: InputDevice,
+    /// Language of the participant's screens.
+    pub language: Language,
+}
+
+/// A results folder that cannot be opened for a protocol and its images.
+#[derive(Debug, thiserror::Error)]
+pub enum OpenError {
+    /// No session can be planned.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The folder does not fit, or the disk said no.
+    #[error(transparent)]
+    Record(#[from] RecordError),
 }
 
 /// A session that cannot start.
@@ -52,14 +69,17 @@ pub enum StartError {
 /// protocol or other images is refused.
 ///
 /// # Errors
-/// [`RecordError`] saying what does not fit, or what the disk said.
+/// [`OpenError`] saying what does not fit, or what the disk said.
 pub fn open_study(
     results: &Path,
     protocol: &Protocol,
     protocol_text: &str,
     manifest: &Manifest,
-) -> Result<Study, RecordError> {
-    let mut identity = StudyIdentity::new(protocol, &conditions(manifest));
+) -> Result<Study, OpenError> {
+    let conditions = conditions(protocol, manifest)?;
+    // A protocol that makes no plan is refused before anything is written.
+    SessionPlan::new(protocol, &conditions, 0)?;
+    let mut identity = StudyIdentity::new(protocol, &conditions);
     identity.image_sha256 = manifest
         .images()
         .map(|image| image.sha256.clone())
@@ -70,20 +90,57 @@ pub fn open_study(
     Ok(study)
 }
 
-/// The conditions of a rendered set, in its order.
+/// The pairs of a rendered set, in its order.
 #[must_use]
-pub fn conditions(manifest: &Manifest) -> Vec<Condition> {
-    manifest
-        .pairs
-        .iter()
-        .map(|pair| Condition {
+pub fn pairs(manifest: &Manifest) -> Vec<Pair> {
+    let pairs = manifest.pairs.iter();
+    pairs
+        .map(|pair| Pair {
             id: pair.condition.clone(),
             scene: pair.scene.clone(),
-            first_technique: pair.first.technique.clone(),
-            second_technique: pair.second.technique.clone(),
+            lighting: pair.validity.clone(),
+            techniques: [&pair.first, &pair.second].map(|image| image.technique.clone()),
+            image_sha256: [&pair.first, &pair.second].map(|image| image.sha256.clone()),
             hypothesis: pair.hypothesis.clone(),
         })
         .collect()
+}
+
+/// What the trials of a protocol show of a rendered set, in the set's order.
+///
+/// # Errors
+/// [`PlanError`] if the set lacks what the procedure shows.
+pub fn exhibits(protocol: &Protocol, manifest: &Manifest) -> Result<Vec<Exhibit>, PlanError> {
+    exhibit::exhibits(protocol, &pairs(manifest))
+}
+
+/// The conditions of a protocol over a rendered set, in the set's order.
+///
+/// # Errors
+/// As [`exhibits`].
+pub fn conditions(protocol: &Protocol, manifest: &Manifest) -> Result<Vec<Condition>, PlanError> {
+    let exhibits = exhibits(protocol, manifest)?;
+    Ok(exhibits.into_iter().map(|it| it.condition).collect())
+}
+
+/// An exhibit's image in the manifest it was made from.
+#[must_use]
+pub fn image(manifest: &Manifest, at: ImageOf) -> Option<&ImageRecord> {
+    let pair = manifest.pairs.get(at.pair)?;
+    Some(match at.position {
+        Position::First => &pair.first,
+        Position::Second => &pair.second,
+    })
+}
+
+fn hashes(manifest: &Manifest, exhibit: &Exhibit) -> ImageHashes {
+    let sha256 = |&at: &ImageOf| {
+        image(manifest, at).map_or_else(String::new, |record| record.sha256.clone())
+    };
+    ImageHashes {
+        images: exhibit.images.iter().map(sha256).collect(),
+        reference: exhibit.reference.as_ref().map(sha256),
+    }
 }
 
 /// The session of an enrolled participant, standing at its instructions.
@@ -96,7 +153,10 @@ pub fn start(
     enrolment: &Enrolment,
     setting: &Setting,
 ) -> Result<Session, StartError> {
-    let plan = SessionPlan::new(protocol, &conditions(manifest), enrolment.slot)?;
+    let exhibits = exhibits(protocol, manifest)?;
+    let images = exhibits.iter().map(|it| hashes(manifest, it)).collect();
+    let conditions: Vec<Condition> = exhibits.into_iter().map(|it| it.condition).collect();
+    let plan = SessionPlan::new(protocol, &conditions, enrolment.slot)?;
     check_rows(&plan, enrolment)?;
     let info = SessionInfo {
         participant_id: enrolment.participant.to_string(),
@@ -107,15 +167,12 @@ pub fn start(
         started_utc: setting.started_utc,
         onset_method: setting.onset_method,
         onset_uncertainty_ms: setting.onset_uncertainty_ms,
+        display: setting.display,
         input_device: setting.input_device,
-        images: manifest
-            .pairs
-            .iter()
-            .map(|pair| PairHashes {
-                first: pair.first.sha256.clone(),
-                second: pair.second.sha256.clone(),
-            })
-            .collect(),
+        // Whoever was asked in one language goes on in it.
+        language: (enrolment.about.as_ref()).map_or(setting.language, |about| about.language),
+        images,
+        has_told: enrolment.about.is_some(),
         answered: enrolment.rows.len(),
         interrupted_utc: enrolment.interrupted_utc,
     };
@@ -124,18 +181,25 @@ pub fn start(
 
 fn check_rows(plan: &SessionPlan, enrolment: &Enrolment) -> Result<(), StartError> {
     for (index, row) in enrolment.rows.iter().enumerate() {
-        let found = format!(
-            "{} ({}, {})",
-            row.condition, row.technique_first, row.technique_second
-        );
+        let shown = |condition: &str, techniques: &[&str]| {
+            let there = techniques.iter().filter(|technique| !technique.is_empty());
+            let there: Vec<&str> = there.copied().collect();
+            format!("{condition} ({})", there.join(", "))
+        };
+        let found = if row.techniques_shown.is_empty() {
+            shown(
+                &row.condition,
+                &[&row.technique_first, &row.technique_second],
+            )
+        } else {
+            let ranked: Vec<&str> = row.techniques_shown.split(LIST_SEPARATOR).collect();
+            shown(&row.condition, &ranked)
+        };
         let expected = plan.trials.get(index).map_or_else(
             || "no such trial".to_owned(),
             |trial| {
-                let (first, second) = plan.techniques(trial);
-                format!(
-                    "{} ({first}, {second})",
-                    plan.conditions[trial.condition].id
-                )
+                let planned: Vec<&str> = plan.shown(trial).collect();
+                shown(&plan.conditions[trial.condition].id, &planned)
             },
         );
         if found != expected {
@@ -152,11 +216,13 @@ fn check_rows(plan: &SessionPlan, enrolment: &Enrolment) -> Result<(), StartErro
 
 /// Does what an effect asks, and gives the event to answer it with.
 #[must_use]
-pub fn perform(effect: &Effect, log: &mut RowLog) -> Event {
-    match effect {
-        Effect::StoreRow(row) => match log.append_row(row) {
-            Ok(()) => Event::RowStored,
-            Err(error) => Event::StoreFailed(error.to_string()),
-        },
+pub fn perform(effect: &Effect, enrolment: &mut Enrolment) -> Event {
+    let stored = match effect {
+        Effect::StoreRow(row) => enrolment.log.append_row(row),
+        Effect::StoreAbout(told) => about::store(&enrolment.results, &enrolment.participant, told),
+    };
+    match stored {
+        Ok(()) => Event::RowStored,
+        Err(error) => Event::StoreFailed(error.to_string()),
     }
 }

@@ -1,14 +1,13 @@
 //! What is noted while one trial runs, and the row it becomes.
 
-use time::OffsetDateTime;
-
 use super::SessionTime;
-use super::info::SessionInfo;
-use super::machine::Identity;
-use crate::protocol::procedure::Step;
-use crate::protocol::{Position, SessionPlan, Trial};
-use crate::record::row::{InputDevice, Outcome, SCHEMA_VERSION};
-use crate::record::{TrialRow, study::iso_8601};
+use super::info::{ImageHashes, SessionInfo};
+use super::machine::Rules;
+use crate::protocol::procedure::{Ask, Step};
+use crate::protocol::{Phase, SessionPlan, Trial};
+use crate::record::TrialRow;
+use crate::record::row::{InputDevice, LIST_SEPARATOR, Outcome, SCHEMA_VERSION};
+use crate::record::study::iso_8601;
 
 /// When something was on the display.
 #[derive(Debug, Clone, Copy, Default)]
@@ -20,9 +19,9 @@ struct Interval {
 /// Onsets and mishaps of the running trial.
 #[derive(Debug, Clone)]
 pub(super) struct TrialLog {
-    first: Interval,
+    /// Of the first and the second image.
+    images: [Interval; 2],
     grey: Interval,
-    second: Interval,
     question: Interval,
     showing: Option<Step>,
     missed_frames: Option<u32>,
@@ -34,9 +33,8 @@ pub(super) struct TrialLog {
 impl TrialLog {
     pub fn new(input_device: InputDevice) -> Self {
         Self {
-            first: Interval::default(),
+            images: [Interval::default(); 2],
             grey: Interval::default(),
-            second: Interval::default(),
             question: Interval::default(),
             showing: None,
             missed_frames: None,
@@ -70,79 +68,95 @@ impl TrialLog {
 
     /// The first frame of a step, which is the first one without the step before it.
     pub fn onset(&mut self, step: Step, at: SessionTime) {
-        if let Some(before) = self.showing.replace(step) {
-            self.interval(before).offset = Some(at);
+        if let Some(interval) = self.showing.replace(step).and_then(|it| self.interval(it)) {
+            interval.offset = Some(at);
         }
-        self.interval(step).onset = Some(at);
+        if let Some(interval) = self.interval(step) {
+            interval.onset = Some(at);
+        }
+        // Images that stand beside the question come and go with it.
+        if let Step::Ask(Ask::CloserToReference | Ask::Ranking) = step {
+            self.images.iter_mut().for_each(|it| it.onset = Some(at));
+        }
     }
 
-    fn interval(&mut self, step: Step) -> &mut Interval {
+    fn interval(&mut self, step: Step) -> Option<&mut Interval> {
         match step {
-            Step::Image {
-                position: Position::First,
-                ..
-            } => &mut self.first,
-            Step::Image {
-                position: Position::Second,
-                ..
-            } => &mut self.second,
-            Step::Grey { .. } => &mut self.grey,
-            Step::Question => &mut self.question,
+            Step::Image { place, .. } => self.images.get_mut(place),
+            Step::Grey { .. } => Some(&mut self.grey),
+            Step::Ask(_) => Some(&mut self.question),
         }
     }
 
-    /// The row of an answered trial.
+    /// The row of a trial that is being answered; what was answered is not in it yet.
     pub fn row(
         &self,
         plan: &SessionPlan,
         trial: &Trial,
-        identity: &Identity,
+        rules: &Rules,
         info: &SessionInfo,
-        choice: Position,
         answered: SessionTime,
     ) -> TrialRow {
         let ns = |time: Option<SessionTime>| time.map(|time| time.ns);
         let condition = &plan.conditions[trial.condition];
         let (technique_first, technique_second) = plan.techniques(trial);
-        let chosen = match choice {
-            Position::First => technique_first,
-            Position::Second => technique_second,
-        };
-        let (first_hash, second_hash) = hashes(info, trial);
-        let answered_utc = wall_clock(info, answered);
+        let hashes = Hashes::of(info, trial);
+        let [first, second] = self.images;
+        let is_ranking = trial.places.len() > 2;
         TrialRow {
             row_id: row_id(info, trial),
             schema_version: SCHEMA_VERSION,
             app_version: env!("CARGO_PKG_VERSION").to_owned(),
-            study_id: identity.study_id.clone(),
-            protocol_hash: identity.protocol_hash.clone(),
+            study_id: rules.study_id.clone(),
+            protocol_hash: rules.protocol_hash.clone(),
             station_id: info.station_id.clone(),
             participant_id: info.participant_id.clone(),
             slot: plan.slot,
             session: info.session,
             segment: info.segment,
             pilot: info.pilot,
+            procedure: rules.procedure.to_owned(),
+            language: info.language,
             phase: trial.phase,
             trial_index: u32::try_from(trial.index).unwrap_or(u32::MAX),
             condition: condition.id.clone(),
             scene: condition.scene.clone(),
             technique_first: technique_first.to_owned(),
             technique_second: technique_second.to_owned(),
-            first_image_sha256: first_hash,
-            second_image_sha256: second_hash,
-            first_onset_ns: ns(self.first.onset),
-            first_offset_ns: ns(self.first.offset),
+            technique_reference: condition.reference.clone().unwrap_or_default(),
+            techniques_shown: if is_ranking {
+                list(plan.shown(trial))
+            } else {
+                String::new()
+            },
+            first_image_sha256: hashes.at(0).to_owned(),
+            second_image_sha256: hashes.at(1).to_owned(),
+            reference_image_sha256: hashes.reference.to_owned(),
+            images_sha256: if is_ranking {
+                list(hashes.shown.iter().copied())
+            } else {
+                String::new()
+            },
+            first_onset_ns: ns(first.onset),
+            first_offset_ns: ns(first.offset),
             grey_onset_ns: ns(self.grey.onset),
             grey_offset_ns: ns(self.grey.offset),
-            second_onset_ns: ns(self.second.onset),
-            second_offset_ns: ns(self.second.offset),
+            second_onset_ns: ns(second.onset),
+            second_offset_ns: ns(second.offset),
             question_onset_ns: ns(self.question.onset),
             response_ns: Some(answered.ns),
+            grey_frames: None,
             onset_method: info.onset_method,
             onset_uncertainty_ms: info.onset_uncertainty_ms,
             missed_frames: self.missed_frames,
-            response: Some(choice),
-            chosen_technique: Some(chosen.to_owned()),
+            refresh_period_ms: info.display.refresh_period_ms,
+            refresh_jitter_sd_ms: info.display.refresh_jitter_sd_ms,
+            display_check: info.display.verdict,
+            response: None,
+            chosen_technique: None,
+            correct: None,
+            ratings: String::new(),
+            ranking: String::new(),
             response_time_ms: self
                 .question
                 .onset
@@ -152,17 +166,22 @@ impl TrialLog {
             outcome: Outcome::Answered,
             resume_gap_ms: info
                 .interrupted_utc
-                .map(|before| whole_milliseconds(answered_utc - before)),
-            answered_utc: iso_8601(answered_utc),
+                .map(|before| whole_milliseconds(info.wall_clock(answered) - before)),
+            answered_utc: iso_8601(info.wall_clock(answered)),
         }
     }
 }
 
+/// Items of one cell.
+pub(super) fn list<'a>(items: impl Iterator<Item = &'a str>) -> String {
+    items.collect::<Vec<_>>().join(&LIST_SEPARATOR.to_string())
+}
+
 fn row_id(info: &SessionInfo, trial: &Trial) -> String {
     let phase = match trial.phase {
-        crate::protocol::Phase::Practice => "practice",
-        crate::protocol::Phase::Catch => "catch",
-        crate::protocol::Phase::Main => "main",
+        Phase::Practice => "practice",
+        Phase::Catch => "catch",
+        Phase::Main => "main",
     };
     format!(
         "{}:{}:{phase}:{}",
@@ -170,24 +189,29 @@ fn row_id(info: &SessionInfo, trial: &Trial) -> String {
     )
 }
 
-/// Image hashes in the order shown.
-fn hashes(info: &SessionInfo, trial: &Trial) -> (String, String) {
-    let Some(pair) = info.images.get(trial.condition) else {
-        return (String::new(), String::new());
-    };
-    let base = (pair.first.clone(), pair.second.clone());
-    if trial.reversed {
-        (base.1, base.0)
-    } else {
-        base
-    }
+/// Image hashes of a trial.
+struct Hashes<'a> {
+    /// By place.
+    shown: Vec<&'a str>,
+    reference: &'a str,
 }
 
-fn wall_clock(info: &SessionInfo, at: SessionTime) -> OffsetDateTime {
-    let since_start = time::Duration::nanoseconds(i64::try_from(at.ns).unwrap_or(i64::MAX));
-    info.started_utc
-        .checked_add(since_start)
-        .unwrap_or(info.started_utc)
+impl<'a> Hashes<'a> {
+    fn of(info: &'a SessionInfo, trial: &Trial) -> Self {
+        let known: Option<&'a ImageHashes> = info.images.get(trial.condition);
+        let images = known.map_or(&[][..], |hashes| &hashes.images);
+        let hash = |&image: &usize| images.get(image).map_or("", String::as_str);
+        Self {
+            shown: trial.places.iter().map(hash).collect(),
+            reference: known
+                .and_then(|hashes| hashes.reference.as_deref())
+                .unwrap_or_default(),
+        }
+    }
+
+    fn at(&self, place: usize) -> &'a str {
+        self.shown.get(place).copied().unwrap_or_default()
+    }
 }
 
 fn whole_milliseconds(duration: time::Duration) -> u64 {

@@ -13,7 +13,9 @@ use greyfield::app::pictures::Pictures;
 use greyfield::app::sitting::Sitting;
 use greyfield::app::theme;
 use greyfield::record::{InputDevice, OnsetMethod, TrialRow};
-use greyfield::session::{Effect, Event, PairHashes, Screen, Session, SessionInfo};
+use greyfield::session::{
+    DisplayOnRecord, Effect, Event, ImageHashes, Screen, Session, SessionInfo, start,
+};
 
 use crate::support::Tiny;
 
@@ -121,35 +123,41 @@ fn sitting(
         segment: 1,
         station_id: String::from("desk"),
         pilot: false,
+        language: protocol.language,
         started_utc: time::OffsetDateTime::UNIX_EPOCH,
         onset_method: OnsetMethod::PresentCall,
         onset_uncertainty_ms: None,
+        display: DisplayOnRecord::default(),
         input_device: InputDevice::Keyboard,
         images: study
             .manifest
             .pairs
             .iter()
-            .map(|pair| PairHashes {
-                first: pair.first.sha256.clone(),
-                second: pair.second.sha256.clone(),
+            .map(|pair| ImageHashes {
+                images: vec![pair.first.sha256.clone(), pair.second.sha256.clone()],
+                reference: None,
             })
             .collect(),
         answered: 0,
+        has_told: false,
         interrupted_utc: None,
     };
     let session = Session::new(plan, &protocol, info);
-    let pictures = Pictures::new(study.path("stimuli"), &study.manifest, session.plan());
+    let exhibits = start::exhibits(&protocol, &study.manifest).expect("exhibits");
+    let folder = study.path("stimuli");
+    let pictures = Pictures::new(folder, &study.manifest, &exhibits, session.plan());
     let (rows, disk_error) = (Rc::clone(rows), Rc::clone(disk_error));
     Sitting::new(
         session,
         Rc::new(protocol),
         Clock::Manual(Rc::clone(clock_ns)),
         Box::new(move |effect| {
-            let Effect::StoreRow(row) = effect;
             if let Some(detail) = disk_error.borrow().clone() {
                 return Event::StoreFailed(detail);
             }
-            rows.borrow_mut().push((**row).clone());
+            if let Effect::StoreRow(row) = effect {
+                rows.borrow_mut().push((**row).clone());
+            }
             Event::RowStored
         }),
         pictures,

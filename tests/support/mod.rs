@@ -80,8 +80,9 @@ impl Tiny {
     }
 
     pub fn plan(&self, slot: u32) -> SessionPlan {
-        SessionPlan::new(&self.protocol(), &start::conditions(&self.manifest), slot)
-            .expect("a plan")
+        let protocol = self.protocol();
+        let conditions = start::conditions(&protocol, &self.manifest).expect("conditions");
+        SessionPlan::new(&protocol, &conditions, slot).expect("a plan")
     }
 
     /// The two images of a trial in the order shown.

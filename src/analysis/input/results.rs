@@ -9,7 +9,9 @@ use super::trials::{Observation, Trials};
 use crate::analysis::dataset::Source;
 use crate::digest;
 use crate::protocol::Phase;
-use crate::record::{self, DATA_FOLDER, DATA_SUFFIX, InputDevice, StudyIdentity, TrialRow};
+use crate::record::{
+    self, DATA_FOLDER, DATA_SUFFIX, InputDevice, Response, StudyIdentity, TrialRow,
+};
 
 /// What a data file is called in reports.
 pub const KIND: &str = "session file";
@@ -30,6 +32,9 @@ pub struct LeftOut {
     practice: u64,
     catch: u64,
     pilot: u64,
+    /// Ratings and rankings.
+    no_choice: u64,
+    cannot_tell: u64,
     /// Trials a scripted observer answered; they are used, and reported.
     scripted: u64,
 }
@@ -98,7 +103,7 @@ pub fn read(
             condition: row.condition.as_bytes(),
             first_technique: row.technique_first.as_bytes(),
             second_technique: row.technique_second.as_bytes(),
-            chosen: row.response,
+            chosen: row.response.and_then(Response::position),
             response_time_ms: row.response_time_ms.map(|time| time as f32),
             hypothesis: None,
             line,
@@ -122,7 +127,11 @@ impl LeftOut {
             Phase::Practice => Some(&mut self.practice),
             Phase::Catch => Some(&mut self.catch),
             Phase::Main if row.pilot && !options.include_pilot => Some(&mut self.pilot),
-            Phase::Main => None,
+            Phase::Main => match row.response {
+                None => Some(&mut self.no_choice),
+                Some(Response::CannotTell) => Some(&mut self.cannot_tell),
+                Some(_) => None,
+            },
         }
     }
 
@@ -135,6 +144,14 @@ impl LeftOut {
             (
                 self.pilot,
                 "trials of pilot sessions are left out; --include-pilot takes them in",
+            ),
+            (
+                self.no_choice,
+                "trials are ratings or rankings, not choices, and are left out",
+            ),
+            (
+                self.cannot_tell,
+                "trials were answered by \"cannot tell\" and are left out of the choices",
             ),
             (
                 self.scripted,

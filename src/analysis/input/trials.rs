@@ -63,11 +63,14 @@ impl Trials {
     pub fn declare(&mut self, path: &Path, conditions: &[Condition]) -> Result<(), InputError> {
         self.begin_file(path);
         for condition in conditions {
+            // Only a choice between two is a condition here.
+            let [first, second] = &condition.techniques[..] else {
+                continue;
+            };
             let place = (self.file_number(), 0);
             let names = (
-                self.techniques.number(condition.first_technique.as_bytes()),
-                self.techniques
-                    .number(condition.second_technique.as_bytes()),
+                self.techniques.number(first.as_bytes()),
+                self.techniques.number(second.as_bytes()),
                 self.condition_ids.number(condition.id.as_bytes()),
             );
             let (Some(a), Some(b), Some(id)) = names else {
@@ -80,8 +83,8 @@ impl Trials {
                         format!(
                             "condition {}: {} / {} here, {} / {} in {}; analyse the studies apart",
                             condition.id,
-                            condition.first_technique,
-                            condition.second_technique,
+                            first,
+                            second,
                             self.techniques.name(pair.a),
                             self.techniques.name(pair.b),
                             self.place(pair.place),

@@ -2,14 +2,14 @@
 
 use eframe::egui::{Button, RichText, TextStyle, Ui};
 
-use super::page;
+use super::Page;
 
 /// Draws the last sentence; true if the experimenter goes back to the start page.
-pub fn show(ui: &mut Ui, level: u8, text: &str) -> bool {
-    page(ui, level, |ui| {
+pub fn show(ui: &mut Ui, page: Page<'_>, text: &str) -> bool {
+    page.show(ui, |ui| {
         ui.label(text);
         ui.add_space(160.0);
-        let back = RichText::new("Back to the start page").text_style(TextStyle::Small);
+        let back = RichText::new(&*page.words.back).text_style(TextStyle::Small);
         ui.add(Button::new(back).frame(false)).clicked()
     })
 }

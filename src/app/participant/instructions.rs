@@ -2,22 +2,17 @@
 
 use eframe::egui::{Ui, vec2};
 
-use super::{Given, button, device, page};
-use crate::protocol::config::Texts;
+use super::{Given, Page, button, device, paragraphs};
 use crate::session::Event;
 
 /// Draws the instructions.
-pub fn show(ui: &mut Ui, level: u8, texts: &Texts) -> Option<Given> {
-    page(ui, level, |ui| {
-        ui.heading(&*texts.title);
+pub fn show(ui: &mut Ui, page: Page<'_>) -> Option<Given> {
+    page.show(ui, |ui| {
+        ui.heading(&*page.words.title);
         ui.add_space(12.0);
-        for paragraph in texts.instructions.split("\n\n") {
-            // Line breaks inside a paragraph are those of the file's editor.
-            ui.label(paragraph.split_whitespace().collect::<Vec<_>>().join(" "));
-            ui.add_space(4.0);
-        }
+        paragraphs(ui, &page.words.instructions);
         ui.add_space(20.0);
-        let begin = button(ui, &texts.begin, vec2(200.0, 52.0));
+        let begin = button(ui, &page.words.begin, vec2(200.0, 52.0));
         begin.clicked().then(|| (Event::Begin, device(&begin)))
     })
 }

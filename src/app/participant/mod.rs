@@ -5,72 +5,133 @@
 //! Every text comes from the protocol. None may say what realism is.
 
 pub mod closing;
+pub mod comparison;
+pub mod consent;
+pub mod form;
 pub mod grey;
 pub mod image;
 pub mod instructions;
 pub mod pair_menu;
+pub mod pause;
 pub mod question;
+pub mod ranking;
+pub mod rating;
 pub mod saving;
 pub mod trouble;
 
 use eframe::egui::{
     self, Color32, FontFamily, FontId, Frame, InputState, Margin, Rect, Response, ScrollArea,
-    TextStyle, Ui, UiBuilder, pos2,
+    Stroke, TextStyle, Ui, UiBuilder, pos2,
 };
 
 use super::{stimulus_view, theme};
-use crate::protocol::Key;
+use crate::protocol::{Key, Words};
 use crate::record::InputDevice;
 use crate::session::Event;
 
 /// Width of the card, points; a line holds about 80 characters.
 const COLUMN: f32 = 848.0;
 
-/// A page of text: a quiet card on the protocol's grey. That grey is the one
-/// between the images, so that the eye stays adapted to it.
-fn page<R>(ui: &mut Ui, level: u8, add: impl FnOnce(&mut Ui) -> R) -> R {
-    stimulus_view::paint_grey(ui.ctx(), level);
-    let screen = ui.ctx().viewport_rect();
-    let width = COLUMN.min(screen.width() - 24.0).max(1.0);
-    let column = Rect::from_min_max(
-        pos2(
-            screen.center().x - width / 2.0,
-            screen.top() + screen.height() * 0.1,
-        ),
-        pos2(screen.center().x + width / 2.0, screen.bottom() - 12.0),
-    );
-    ui.scope_builder(UiBuilder::new().max_rect(column), |ui| {
-        large_type(ui, level);
-        ScrollArea::vertical()
-            .auto_shrink(false)
-            .show(ui, |ui| {
-                Frame::new()
-                    .fill(Color32::from_gray(theme::card_on(level)))
-                    .corner_radius(6)
-                    .inner_margin(Margin::symmetric(44, 36))
-                    .show(ui, |ui| {
-                        ui.set_min_width(ui.available_width());
-                        add(ui)
-                    })
-                    .inner
-            })
-            .inner
-    })
-    .inner
+/// How pages of text look. Images and the grey are never touched by it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Look {
+    /// Grey level round the card (8-bit sRGB): the protocol's, so that the eye stays
+    /// adapted to the grey between the images.
+    pub level: u8,
+    /// Size of type, 1 for the usual.
+    pub text_scale: f32,
+    /// Black on white with strong edges.
+    pub high_contrast: bool,
 }
 
-fn large_type(ui: &mut Ui, level: u8) {
-    let style = ui.style_mut();
-    style.visuals.override_text_color = Some(theme::ink_on(level));
-    style.spacing.item_spacing = egui::vec2(16.0, 14.0);
-    for (role, size) in [
-        (TextStyle::Heading, 32.0),
-        (TextStyle::Body, 21.0),
-        (TextStyle::Button, 21.0),
-    ] {
-        style
-            .text_styles
-            .insert(role, FontId::new(size, FontFamily::Proportional));
+impl Look {
+    fn ink(self) -> Color32 {
+        if self.high_contrast {
+            Color32::BLACK
+        } else {
+            theme::ink_on(self.level)
+        }
+    }
+
+    fn card(self) -> Frame {
+        let frame = Frame::new()
+            .corner_radius(6)
+            .inner_margin(Margin::symmetric(44, 36));
+        if self.high_contrast {
+            frame
+                .fill(Color32::WHITE)
+                .stroke(Stroke::new(4.0, Color32::BLACK))
+        } else {
+            frame.fill(Color32::from_gray(theme::card_on(self.level)))
+        }
+    }
+}
+
+/// What every page of text is made of: its look, and every sentence.
+#[derive(Debug, Clone, Copy)]
+pub struct Page<'a> {
+    /// How it looks.
+    pub look: Look,
+    /// What it says.
+    pub words: &'a Words,
+}
+
+impl Page<'_> {
+    /// A quiet card on the protocol's grey.
+    fn show<R>(&self, ui: &mut Ui, add: impl FnOnce(&mut Ui) -> R) -> R {
+        stimulus_view::paint_grey(ui.ctx(), self.look.level);
+        let screen = ui.ctx().viewport_rect();
+        let widest = COLUMN * self.look.text_scale.max(1.0);
+        let width = widest.min(screen.width() - 24.0).max(1.0);
+        let column = Rect::from_min_max(
+            pos2(
+                screen.center().x - width / 2.0,
+                screen.top() + screen.height() * 0.1,
+            ),
+            pos2(screen.center().x + width / 2.0, screen.bottom() - 12.0),
+        );
+        ui.scope_builder(UiBuilder::new().max_rect(column), |ui| {
+            self.large_type(ui);
+            ScrollArea::vertical()
+                .auto_shrink(false)
+                .show(ui, |ui| {
+                    self.look
+                        .card()
+                        .show(ui, |ui| {
+                            ui.set_min_width(ui.available_width());
+                            add(ui)
+                        })
+                        .inner
+                })
+                .inner
+        })
+        .inner
+    }
+
+    fn large_type(&self, ui: &mut Ui) {
+        let style = ui.style_mut();
+        style.visuals.override_text_color = Some(self.look.ink());
+        style.spacing.item_spacing = egui::vec2(16.0, 14.0);
+        for (role, size) in [
+            (TextStyle::Heading, 32.0),
+            (TextStyle::Body, 21.0),
+            (TextStyle::Button, 21.0),
+            (TextStyle::Small, 15.0),
+        ] {
+            let size = size * self.look.text_scale;
+            style
+                .text_styles
+                .insert(role, FontId::new(size, FontFamily::Proportional));
+        }
+    }
+}
+
+/// Paragraphs of a text, parted by blank lines; line breaks inside one are those of the
+/// file's editor.
+fn paragraphs(ui: &mut Ui, text: &str) {
+    for paragraph in text.split("\n\n") {
+        ui.label(paragraph.split_whitespace().collect::<Vec<_>>().join(" "));
+        ui.add_space(4.0);
     }
 }
 

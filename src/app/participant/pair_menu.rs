@@ -2,9 +2,8 @@
 
 use eframe::egui::{Color32, Role, Ui, WidgetInfo, vec2};
 
-use super::{Given, button, device, page};
+use super::{Given, Page, button, device};
 use crate::app::theme;
-use crate::protocol::config::Texts;
 use crate::session::Event;
 
 /// Size of a pair's button, points.
@@ -13,15 +12,15 @@ const BUTTON: [f32; 2] = [176.0, 52.0];
 const ROW: usize = 4;
 
 /// Draws the buttons of `total` pairs, of which those before `next` are done.
-pub fn show(ui: &mut Ui, level: u8, texts: &Texts, next: usize, total: usize) -> Option<Given> {
-    page(ui, level, |ui| {
-        ui.label(&*texts.menu);
+pub fn show(ui: &mut Ui, page: Page<'_>, next: usize, total: usize) -> Option<Given> {
+    page.show(ui, |ui| {
+        ui.label(&*page.words.menu);
         ui.add_space(16.0);
         let mut given = None;
         for first in (0..total).step_by(ROW) {
             ui.horizontal(|ui| {
                 for index in first..total.min(first + ROW) {
-                    given = pair(ui, texts, index, next).or(given.take());
+                    given = pair(ui, page, index, next).or(given.take());
                 }
             });
         }
@@ -29,8 +28,8 @@ pub fn show(ui: &mut Ui, level: u8, texts: &Texts, next: usize, total: usize) ->
     })
 }
 
-fn pair(ui: &mut Ui, texts: &Texts, index: usize, next: usize) -> Option<Given> {
-    let caption = texts.pair_caption(index);
+fn pair(ui: &mut Ui, page: Page<'_>, index: usize, next: usize) -> Option<Given> {
+    let caption = page.words.pair_caption(index);
     let done = index < next;
     ui.add_enabled_ui(index == next, |ui| {
         let pressed = button(ui, &caption, vec2(BUTTON[0], BUTTON[1]));

@@ -2,10 +2,9 @@
 
 use eframe::egui::Ui;
 
-use super::page;
-use crate::protocol::config::Texts;
+use super::Page;
 
 /// Draws the sentence.
-pub fn show(ui: &mut Ui, level: u8, texts: &Texts) {
-    page(ui, level, |ui| ui.label(&*texts.saving));
+pub fn show(ui: &mut Ui, page: Page<'_>) {
+    page.show(ui, |ui| ui.label(&*page.words.saving));
 }

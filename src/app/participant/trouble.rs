@@ -3,22 +3,21 @@
 
 use eframe::egui::{CollapsingHeader, CursorIcon, Ui, vec2};
 
-use super::{button, page};
-use crate::protocol::config::Texts;
+use super::{Page, button};
 
 /// Draws both; true if the experimenter asks to try again.
-pub fn show(ui: &mut Ui, level: u8, texts: &Texts, detail: &str) -> bool {
+pub fn show(ui: &mut Ui, page: Page<'_>, detail: &str) -> bool {
     // An image may have hidden the pointer.
     ui.ctx().set_cursor_icon(CursorIcon::Default);
-    page(ui, level, |ui| {
-        ui.label(&*texts.trouble);
+    page.show(ui, |ui| {
+        ui.label(&*page.words.trouble);
         ui.add_space(48.0);
-        CollapsingHeader::new("For the experimenter")
+        CollapsingHeader::new(&*page.words.for_experimenter)
             .id_salt("trouble")
             .show(ui, |ui| {
                 ui.label(detail);
                 ui.add_space(8.0);
-                button(ui, "Try again", vec2(160.0, 44.0)).clicked()
+                button(ui, &page.words.try_again, vec2(160.0, 44.0)).clicked()
             })
             .body_returned
             .unwrap_or(false)

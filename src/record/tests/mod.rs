@@ -4,8 +4,8 @@ mod lines;
 mod studies;
 
 use super::row::SCHEMA_VERSION;
-use super::{InputDevice, OnsetMethod, Outcome, TrialRow};
-use crate::protocol::{Phase, Position};
+use super::{DisplayVerdict, InputDevice, OnsetMethod, Outcome, Response, TrialRow};
+use crate::protocol::{Language, Phase};
 
 /// An answered trial.
 pub(crate) fn row(participant: &str, trial_index: u32) -> TrialRow {
@@ -21,14 +21,20 @@ pub(crate) fn row(participant: &str, trial_index: u32) -> TrialRow {
         session: 1,
         segment: 1,
         pilot: false,
+        procedure: "no-reference".to_owned(),
+        language: Language::En,
         phase: Phase::Main,
         trial_index,
         condition: format!("c{trial_index}"),
         scene: "atrium".to_owned(),
         technique_first: "none".to_owned(),
         technique_second: "blizzard24".to_owned(),
+        technique_reference: String::new(),
+        techniques_shown: String::new(),
         first_image_sha256: "cd".repeat(32),
         second_image_sha256: "ef".repeat(32),
+        reference_image_sha256: String::new(),
+        images_sha256: String::new(),
         first_onset_ns: Some(1_000_000_000),
         first_offset_ns: Some(4_000_000_000),
         grey_onset_ns: Some(4_000_000_000),
@@ -37,11 +43,18 @@ pub(crate) fn row(participant: &str, trial_index: u32) -> TrialRow {
         second_offset_ns: Some(9_000_000_000),
         question_onset_ns: Some(9_000_000_000),
         response_ns: Some(10_234_500_000),
+        grey_frames: Some(120),
         onset_method: OnsetMethod::PresentCall,
         onset_uncertainty_ms: Some(16.7),
         missed_frames: None,
-        response: Some(Position::Second),
+        refresh_period_ms: Some(16.67),
+        refresh_jitter_sd_ms: Some(0.04),
+        display_check: DisplayVerdict::Passed,
+        response: Some(Response::Second),
         chosen_technique: Some("blizzard24".to_owned()),
+        correct: None,
+        ratings: String::new(),
+        ranking: String::new(),
         response_time_ms: Some(1234.5),
         input_device: InputDevice::Keyboard,
         focus_lost: 0,

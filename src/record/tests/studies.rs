@@ -19,8 +19,8 @@ fn identity() -> StudyIdentity {
             .map(|id| Condition {
                 id: id.to_owned(),
                 scene: "atrium".to_owned(),
-                first_technique: "none".to_owned(),
-                second_technique: "blizzard24".to_owned(),
+                techniques: vec!["none".to_owned(), "blizzard24".to_owned()],
+                reference: None,
                 hypothesis: "H1".to_owned(),
             })
             .into(),

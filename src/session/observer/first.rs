@@ -1,13 +1,15 @@
 //! Always the image shown first: what a position bias alone looks like.
 
-use super::{Behaviour, Kind, Observer};
-use crate::protocol::{Position, SessionPlan, Trial};
+use super::{Behaviour, Kind, Observer, Question};
+use crate::protocol::Position;
+use crate::protocol::procedure::Ask;
+use crate::session::Answer;
 
 /// `first`.
 pub const FIRST: Kind = Kind {
     name: "first",
     argument: "",
-    summary: "chooses the image shown first, after a second each",
+    summary: "chooses the image shown first, rates all alike, ranks as shown, after a second each",
     make: |argument| {
         if argument.is_empty() {
             Ok(Box::new(First))
@@ -21,12 +23,16 @@ pub const FIRST: Kind = Kind {
 struct First;
 
 impl Observer for First {
-    fn behave(&self, _plan: &SessionPlan, _trial: &Trial) -> Behaviour {
+    fn behave(&self, question: &Question<'_>) -> Behaviour {
+        let answer = match question.ask {
+            Ask::Choice | Ask::CloserToReference => Answer::Choice(Position::First),
+            Ask::Ratings => Answer::Ratings(vec![1; question.protocol.scales.len()]),
+            Ask::Ranking => Answer::Ranking((0..question.trial.places.len()).collect()),
+        };
         Behaviour {
-            first_look_ns: 1_000_000_000,
-            second_look_ns: 1_000_000_000,
+            looks_ns: [1_000_000_000; 2],
             decision_ns: 1_000_000_000,
-            choice: Position::First,
+            answer,
         }
     }
 }

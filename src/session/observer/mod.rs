@@ -7,26 +7,64 @@ mod random;
 use std::fmt;
 use std::str::FromStr;
 
-use crate::protocol::{Position, SessionPlan, Trial};
+use super::Answer;
+use crate::protocol::procedure::{Ask, Step};
+use crate::protocol::{Protocol, SessionPlan, Trial};
 
 /// What an observer does in one trial.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Behaviour {
-    /// How long the first image is looked at.
-    pub first_look_ns: u64,
-    /// How long the second image is looked at.
-    pub second_look_ns: u64,
+    /// How long the images that end with a key are looked at, by place.
+    pub looks_ns: [u64; 2],
     /// From the question to the answer.
     pub decision_ns: u64,
     /// The answer.
-    pub choice: Position,
+    pub answer: Answer,
+}
+
+/// What an observer is asked, and everything it may know.
+#[derive(Debug, Clone, Copy)]
+pub struct Question<'a> {
+    /// The session it sits.
+    pub plan: &'a SessionPlan,
+    /// The trial.
+    pub trial: &'a Trial,
+    /// What the trial asks.
+    pub ask: Ask,
+    /// The protocol.
+    pub protocol: &'a Protocol,
+}
+
+impl<'a> Question<'a> {
+    /// The question of a trial under a protocol.
+    #[must_use]
+    pub fn new(protocol: &'a Protocol, plan: &'a SessionPlan, trial: &'a Trial) -> Self {
+        let steps = (protocol.procedure.steps)(protocol);
+        let ask = match steps.last() {
+            Some(Step::Ask(ask)) => *ask,
+            // Every procedure ends with a question; a test holds that.
+            _ => Ask::Choice,
+        };
+        Self {
+            plan,
+            trial,
+            ask,
+            protocol,
+        }
+    }
+
+    /// A number that is this slot's and this trial's alone, for generators.
+    #[must_use]
+    pub fn index(&self) -> u64 {
+        (u64::from(self.plan.slot) << 32) | self.trial.index as u64
+    }
 }
 
 /// A scripted observer. Its behaviour is a pure function of its own seed, the slot
 /// and the trial, so that a session that was interrupted goes on as it would have.
 pub trait Observer: fmt::Debug {
-    /// What the participant of this plan does in this trial.
-    fn behave(&self, plan: &SessionPlan, trial: &Trial) -> Behaviour;
+    /// What the participant does in this trial.
+    fn behave(&self, question: &Question<'_>) -> Behaviour;
 }
 
 /// A kind of observer that `--observer` can name.

@@ -2,15 +2,17 @@
 
 use rand_chacha::ChaCha20Rng;
 
-use super::{Behaviour, Kind, Observer};
-use crate::protocol::{Position, SessionPlan, Trial};
+use super::{Behaviour, Kind, Observer, Question};
+use crate::protocol::Position;
+use crate::protocol::procedure::Ask;
 use crate::seed;
+use crate::session::Answer;
 
 /// `random:SEED`.
 pub const RANDOM: Kind = Kind {
     name: "random",
     argument: "SEED",
-    summary: "chooses by a fair coin, after some seconds each",
+    summary: "chooses, rates and ranks by chance, after some seconds each",
     make: |argument| match argument.parse() {
         Ok(seed) => Ok(Box::new(Random { seed })),
         Err(_) => Err("a whole number from 0 behind the colon".to_owned()),
@@ -23,18 +25,40 @@ struct Random {
 }
 
 impl Observer for Random {
-    fn behave(&self, plan: &SessionPlan, trial: &Trial) -> Behaviour {
-        let index = (u64::from(plan.slot) << 32) | trial.index as u64;
-        let mut rng = seed::generator(self.seed, "observer-random", index);
+    fn behave(&self, question: &Question<'_>) -> Behaviour {
+        let mut rng = seed::generator(self.seed, "observer-random", question.index());
+        let looks_ns = [(); 2].map(|()| seconds_between(&mut rng, 2.0, 12.0));
+        let decision_ns = seconds_between(&mut rng, 0.4, 2.0);
         Behaviour {
-            first_look_ns: seconds_between(&mut rng, 2.0, 12.0),
-            second_look_ns: seconds_between(&mut rng, 2.0, 12.0),
-            decision_ns: seconds_between(&mut rng, 0.4, 2.0),
-            choice: if seed::below(&mut rng, 2) == 0 {
-                Position::First
-            } else {
-                Position::Second
-            },
+            looks_ns,
+            decision_ns,
+            answer: by_chance(&mut rng, question),
+        }
+    }
+}
+
+fn by_chance(rng: &mut ChaCha20Rng, question: &Question<'_>) -> Answer {
+    match question.ask {
+        Ask::Choice | Ask::CloserToReference => {
+            let answers = if question.protocol.cannot_tell { 3 } else { 2 };
+            match seed::below(rng, answers) {
+                0 => Answer::Choice(Position::First),
+                1 => Answer::Choice(Position::Second),
+                _ => Answer::CannotTell,
+            }
+        }
+        Ask::Ratings => {
+            let scales = question.protocol.scales.iter();
+            Answer::Ratings(
+                scales
+                    .map(|scale| 1 + seed::below(rng, scale.points.get()))
+                    .collect(),
+            )
+        }
+        Ask::Ranking => {
+            let mut places: Vec<usize> = (0..question.trial.places.len()).collect();
+            seed::shuffle(rng, &mut places);
+            Answer::Ranking(places)
         }
     }
 }

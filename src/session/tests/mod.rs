@@ -1,5 +1,7 @@
-//! The no-reference session: every path, every row, and random events on top.
+//! The session of every procedure: every path, every row, and random events on top.
 
+mod pages;
+mod procedures;
 mod random;
 mod rows;
 mod screens;
@@ -8,8 +10,10 @@ use std::path::Path;
 
 use time::macros::datetime;
 
-use super::{Effect, Event, PairHashes, Screen, Session, SessionInfo, SessionTime};
-use crate::protocol::{Condition, Position, Protocol, SessionPlan};
+use super::{
+    Answer, DisplayOnRecord, Effect, Event, ImageHashes, Screen, Session, SessionInfo, SessionTime,
+};
+use crate::protocol::{Condition, Language, Position, Protocol, SessionPlan};
 use crate::record::{InputDevice, OnsetMethod, TrialRow};
 
 const GREY_NS: u64 = 2_000_000_000;
@@ -24,8 +28,8 @@ fn conditions() -> Vec<Condition> {
         .map(|id| Condition {
             id: id.to_owned(),
             scene: "atrium".to_owned(),
-            first_technique: format!("{id}-base"),
-            second_technique: format!("{id}-other"),
+            techniques: vec![format!("{id}-base"), format!("{id}-other")],
+            reference: None,
             hypothesis: String::new(),
         })
         .into()
@@ -38,17 +42,20 @@ fn info(answered: usize) -> SessionInfo {
         segment: 1,
         station_id: "lab".to_owned(),
         pilot: false,
+        language: Language::En,
         started_utc: datetime!(2026-03-01 10:00 UTC),
         onset_method: OnsetMethod::PresentCall,
         onset_uncertainty_ms: Some(16.7),
+        display: DisplayOnRecord::default(),
         input_device: InputDevice::Keyboard,
         images: ["a", "b", "c"]
-            .map(|id| PairHashes {
-                first: format!("{id}-base-hash"),
-                second: format!("{id}-other-hash"),
+            .map(|id| ImageHashes {
+                images: vec![format!("{id}-base-hash"), format!("{id}-other-hash")],
+                reference: None,
             })
             .into(),
         answered,
+        has_told: false,
         interrupted_utc: None,
     }
 }
@@ -74,7 +81,10 @@ fn feed(session: &mut Session, events: &[(u64, Event)]) {
 }
 
 fn image(trial: usize, position: Position) -> Screen {
-    Screen::Image { trial, position }
+    Screen::Image {
+        trial,
+        place: position.place(),
+    }
 }
 
 /// Brings a new session to the question of its first trial, shown at 10 s.
@@ -98,8 +108,12 @@ fn to_question() -> Session {
     session
 }
 
+fn chosen(choice: Position) -> Event {
+    Event::Answer(Answer::Choice(choice))
+}
+
 fn answer(session: &mut Session, choice: Position, ns: u64) -> TrialRow {
-    let effects = session.handle(Event::Answer(choice), at(ns));
+    let effects = session.handle(chosen(choice), at(ns));
     let [Effect::StoreRow(row)] = &effects[..] else {
         panic!("{effects:?}");
     };
@@ -117,13 +131,15 @@ fn run_to_end(session: &mut Session) -> Vec<TrialRow> {
             Screen::PairMenu { next, .. } => Event::StartPair(*next),
             Screen::Image { .. } => Event::Continue,
             Screen::Grey { .. } => Event::Tick,
-            Screen::Question { .. } => Event::Answer(Position::First),
-            Screen::Saving { .. } => Event::RowStored,
+            Screen::Question { .. } => chosen(Position::First),
+            Screen::Saving => Event::RowStored,
             other => panic!("{other:?}"),
         };
         now = session.wake_at().map_or(now + 1, |wake| wake.ns);
         for effect in session.handle(event, at(now)) {
-            let Effect::StoreRow(row) = effect;
+            let Effect::StoreRow(row) = effect else {
+                panic!("{effect:?}");
+            };
             rows.push(*row);
         }
     }

@@ -11,7 +11,7 @@ fn any_event() -> impl Strategy<Value = Event> {
         6 => Just(Event::Continue),
         8 => Just(Event::Shown),
         4 => Just(Event::Tick),
-        6 => prop_oneof![Just(Position::First), Just(Position::Second)].prop_map(Event::Answer),
+        6 => prop_oneof![Just(Position::First), Just(Position::Second)].prop_map(chosen),
         4 => Just(Event::RowStored),
         1 => Just(Event::StoreFailed("full".to_owned())),
         2 => Just(Event::RetryStore),
@@ -30,8 +30,8 @@ fn the_event_that_leads_on(session: &Session) -> Event {
         Screen::Instructions => Event::Begin,
         Screen::PairMenu { next, .. } => Event::StartPair(*next),
         Screen::Image { .. } => Event::Continue,
-        Screen::Question { .. } => Event::Answer(Position::Second),
-        Screen::Saving { .. } => Event::RowStored,
+        Screen::Question { .. } => chosen(Position::Second),
+        Screen::Saving => Event::RowStored,
         Screen::StorageTrouble { .. } => Event::RetryStore,
         _ => Event::Tick,
     }
@@ -43,26 +43,11 @@ fn may_follow(before: &Screen, after: &Screen) -> bool {
     match (before, after) {
         (Instructions, PairMenu { next, .. }) => *next == 0,
         (PairMenu { next, .. }, after) => *after == image(*next, Position::First),
-        (
-            Image {
-                trial,
-                position: Position::First,
-            },
-            Grey { trial: t },
-        )
-        | (
-            Image {
-                trial,
-                position: Position::Second,
-            },
-            Question { trial: t },
-        )
-        | (Question { trial }, Saving { trial: t })
-        | (Saving { trial }, StorageTrouble { trial: t, .. })
-        | (StorageTrouble { trial, .. }, Saving { trial: t }) => trial == t,
+        (Image { trial, place: 0 }, Grey { trial: t })
+        | (Image { trial, place: 1 }, Question { trial: t }) => trial == t,
         (Grey { trial }, after) => *after == image(*trial, Position::Second),
-        (Saving { trial }, PairMenu { next, .. }) => *next == trial + 1,
-        (Saving { trial }, Closing) => *trial == 2,
+        (Question { .. } | StorageTrouble { .. }, Saving)
+        | (Saving, StorageTrouble { .. } | PairMenu { .. } | Closing) => true,
         _ => false,
     }
 }
@@ -94,11 +79,11 @@ proptest! {
             if matches!(before, Screen::Grey { .. }) && before != after {
                 prop_assert!(deadline.is_some_and(|deadline| at(now) >= deadline));
             }
-            if let Screen::Saving { .. } = before && event == Event::RowStored {
+            if let Screen::Saving = before && event == Event::RowStored {
                 acknowledged.extend(pending.take());
             }
             for effect in effects {
-                let Effect::StoreRow(row) = effect;
+                let Effect::StoreRow(row) = effect else { panic!() };
                 prop_assert!(pending.as_ref().is_none_or(|waiting| *waiting == *row));
                 pending = Some(*row);
             }

@@ -1,6 +1,7 @@
 //! What a row says.
 
 use super::*;
+use crate::record::Response;
 
 #[test]
 fn the_row_says_what_was_shown_when_and_what_was_chosen() {
@@ -10,17 +11,14 @@ fn the_row_says_what_was_shown_when_and_what_was_chosen() {
     let row = answer(&mut session, Position::Second, 11_234_500_000);
     assert_eq!(row.row_id, "P01:1:main:0");
     assert_eq!(row.condition, condition.id);
-    assert_eq!(row.technique_first, condition.first_technique);
-    assert_eq!(row.technique_second, condition.second_technique);
+    assert_eq!(row.technique_first, condition.techniques[0]);
+    assert_eq!(row.technique_second, condition.techniques[1]);
     assert_eq!(
         row.first_image_sha256,
         format!("{}-base-hash", condition.id)
     );
-    assert_eq!(row.response, Some(Position::Second));
-    assert_eq!(
-        row.chosen_technique,
-        Some(condition.second_technique.clone())
-    );
+    assert_eq!(row.response, Some(Response::Second));
+    assert_eq!(row.chosen_technique, Some(condition.techniques[1].clone()));
     assert_eq!(row.first_onset_ns, Some(1_000_000_000));
     assert_eq!(row.first_offset_ns, Some(4_100_000_000));
     assert_eq!(row.grey_onset_ns, Some(4_100_000_000));

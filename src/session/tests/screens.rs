@@ -27,7 +27,7 @@ fn one_trial_goes_through_its_screens_in_order() {
     assert_eq!(session.screen(), &Screen::Question { trial: 0 });
     feed(&mut session, &[(GREY_NS + 40, Event::Shown)]);
     answer(&mut session, Position::Second, GREY_NS + 50);
-    assert_eq!(session.screen(), &Screen::Saving { trial: 0 });
+    assert_eq!(session.screen(), &Screen::Saving);
     feed(&mut session, &[(GREY_NS + 60, Event::RowStored)]);
     assert_eq!(session.screen(), &Screen::PairMenu { next: 1, total: 3 });
 }
@@ -72,7 +72,7 @@ fn a_key_held_over_from_the_screen_before_does_not_count() {
             (now + GREY_NS, Event::Tick),
             (now + GREY_NS, Event::Shown),
             (now + GREY_NS, Event::Continue),
-            (now + GREY_NS + 1, Event::Answer(Position::First)),
+            (now + GREY_NS + 1, chosen(Position::First)),
         ],
     );
     let question = Screen::Question { trial: 1 };
@@ -137,7 +137,6 @@ fn a_failed_store_waits_and_stores_the_same_row_again() {
         &[(11_000_000_000, Event::StoreFailed("disk full".to_owned()))],
     );
     let trouble = Screen::StorageTrouble {
-        trial: 0,
         detail: "disk full".to_owned(),
     };
     assert_eq!(session.screen(), &trouble);
@@ -145,7 +144,7 @@ fn a_failed_store_waits_and_stores_the_same_row_again() {
         &mut session,
         &[
             (12_000_000_000, Event::Continue),
-            (12_000_000_000, Event::Answer(Position::Second)),
+            (12_000_000_000, chosen(Position::Second)),
             (12_000_000_000, Event::StartPair(1)),
             (12_000_000_000, Event::RowStored),
         ],
@@ -162,7 +161,7 @@ fn an_abort_while_saving_waits_for_the_row() {
     let mut session = to_question();
     answer(&mut session, Position::First, 11_000_000_000);
     feed(&mut session, &[(11_000_000_000, Event::Abort)]);
-    assert_eq!(session.screen(), &Screen::Saving { trial: 0 });
+    assert_eq!(session.screen(), &Screen::Saving);
     feed(&mut session, &[(11_000_000_000, Event::RowStored)]);
     assert_eq!(session.screen(), &Screen::Aborted);
     assert_eq!(session.stored(), 1);
@@ -174,10 +173,7 @@ fn an_abort_ends_any_screen() {
     let mut session = to_question();
     feed(&mut session, &[(11_000_000_000, Event::Abort)]);
     assert_eq!(session.screen(), &Screen::Aborted);
-    feed(
-        &mut session,
-        &[(12_000_000_000, Event::Answer(Position::First))],
-    );
+    feed(&mut session, &[(12_000_000_000, chosen(Position::First))]);
     assert_eq!(session.screen(), &Screen::Aborted);
 }
 
