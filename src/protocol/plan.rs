@@ -95,7 +95,8 @@ impl SessionPlan {
         if let Some(twice) = conditions.iter().find(|known| !ids.insert(&known.id)) {
             return Err(PlanError::DuplicateCondition(twice.id.clone()));
         }
-        let places = (protocol.design.order)(conditions.len(), protocol.seed, slot);
+        let places =
+            (protocol.design.order)(conditions.len(), protocol.seed, slot, protocol.inner_order);
         Ok(Self {
             slot,
             conditions: conditions.to_vec(),
