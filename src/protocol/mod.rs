@@ -3,6 +3,7 @@
 //! Everything here is a pure function of (protocol, seed, slot): no clock, no
 //! disk, no window. The same three give the same session on any machine, forever.
 
+pub mod balance;
 pub mod config;
 pub mod design;
 pub mod key;
@@ -10,6 +11,7 @@ pub mod plan;
 pub mod procedure;
 pub mod text;
 
+pub use balance::Balance;
 pub use config::Protocol;
 pub use key::Key;
 pub use plan::{Condition, Phase, PlanError, Position, SessionPlan, Trial};
