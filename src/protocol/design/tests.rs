@@ -65,6 +65,11 @@ proptest! {
             prop_assert!(count == n / 2 || count == n.div_ceil(2), "{}: {count}", design.name);
         }
     }
+}
+
+proptest! {
+    // Every slot of a block draws the whole block again.
+    #![proptest_config(ProptestConfig::with_cases(16))]
 
     #[test]
     fn over_a_block_every_condition_is_reversed_half_the_time_at_every_place(

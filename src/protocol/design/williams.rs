@@ -61,8 +61,8 @@ fn rows(n: usize, seed: u64, block: u64) -> Vec<Vec<usize>> {
 }
 
 /// 0, 1, n − 1, 2, n − 2, …: for even n the steps from one to the next, round the circle of
-/// n, are all different. For odd n they are ±1, ±3, … or the like, each twice, and those of
-/// the same row backwards are the others.
+/// n, are all different. For odd n they are the odd numbers below n, each twice, and those of
+/// the same row backwards are the even ones.
 fn zigzag(n: usize) -> Vec<usize> {
     let at = |place: usize| match place % 2 {
         1 => place.div_ceil(2),
@@ -130,9 +130,9 @@ mod tests {
         }
     }
 
-    /// Bradley's own example of order 4 is 1 2 4 3, 2 3 1 4, …, row by row one more.
+    /// Bradley's first row is 1, 2, n, 3, n − 1, …; here it is counted from 0.
     #[test]
-    fn four_conditions_go_as_in_the_books() {
+    fn the_first_row_is_as_in_the_books() {
         assert_eq!(zigzag(4), [0, 1, 3, 2]);
         assert_eq!(zigzag(5), [0, 1, 4, 2, 3]);
     }
