@@ -14,9 +14,8 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use greyfield::app::clock::Clock;
 use greyfield::app::window::Content as _;
 use greyfield::app::{Application, Setup, theme};
-use greyfield::protocol::Position;
-use greyfield::record::TrialRow;
 use greyfield::record::read::read_folder;
+use greyfield::record::{Response, TrialRow};
 use greyfield::session::start;
 use support::Tiny;
 
@@ -148,7 +147,7 @@ fn from_the_id_to_the_rows_on_disk_and_back() {
 
     let rows = rows(&study);
     let responses: Vec<_> = rows.iter().map(|row| row.response).collect();
-    assert_eq!(responses, [Some(Position::First), Some(Position::Second)]);
+    assert_eq!(responses, [Some(Response::First), Some(Response::Second)]);
     let plan = study.plan(0);
     for (trial, row) in rows.iter().enumerate() {
         let [first, second] = study.shown(&plan, trial);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::design::Design;
+use super::design::{Design, InnerOrder};
 use super::locale::Texts;
 use super::options::{Breaks, Catch, ImageTime, MetadataField, Practice, Reference, Scale};
 use super::procedure::{Procedure, TrialStart};
@@ -27,6 +27,9 @@ pub struct Protocol {
     pub procedure: &'static Procedure,
     /// Who sees which order.
     pub design: &'static Design,
+    /// Whose pairs are reversed: those of whole participants, or half of everybody's.
+    #[serde(default)]
+    pub inner_order: InnerOrder,
     /// Seed of everything random in the design.
     pub seed: u64,
     /// How many participants the study is planned for.
@@ -305,6 +308,7 @@ mod tests {
         let protocol = parse(THESIS).unwrap();
         assert_eq!(protocol.procedure.name, "no-reference");
         assert_eq!(protocol.design.name, "latin");
+        assert_eq!(protocol.inner_order, InnerOrder::Block);
         assert_eq!(protocol.grey.duration_ns(), 2_000_000_000);
         assert_eq!(protocol.grey.level_srgb.get(), 128);
         assert_eq!(protocol.planned_participants.get(), 36);
@@ -352,7 +356,12 @@ mod tests {
             (
                 "design = \"latin\"",
                 "design = \"greek\"",
-                ["p.toml:8", "design", "\"greek\"", "latin"],
+                ["p.toml:8", "design", "\"greek\"", "latin, williams, random"],
+            ),
+            (
+                "inner_order = \"block\"",
+                "inner_order = \"inside\"",
+                ["p.toml:9", "inner_order", "inside", "`block` or `within`"],
             ),
             (
                 "procedure = \"no-reference\"",
@@ -362,17 +371,17 @@ mod tests {
             (
                 "duration_ms = 2000",
                 "duration_ms = -1",
-                ["p.toml:15", "grey.duration_ms", "-1", "0 to 600000 ms"],
+                ["p.toml:16", "grey.duration_ms", "-1", "0 to 600000 ms"],
             ),
             (
                 "level_srgb = 128",
                 "level_srgb = 256",
-                ["p.toml:16", "grey.level_srgb", "256", "0 to 255"],
+                ["p.toml:17", "grey.level_srgb", "256", "0 to 255"],
             ),
             (
                 "planned_participants = 36",
                 "planned_participants = 0",
-                ["p.toml:10", "planned_participants", "found 0", "1 to"],
+                ["p.toml:11", "planned_participants", "found 0", "1 to"],
             ),
             (
                 "study_id = \"thesis-2010\"",
@@ -397,7 +406,7 @@ mod tests {
             (
                 "seed = 2010",
                 "sead = 2010",
-                ["p.toml:9", "sead", "unknown field", "seed"],
+                ["p.toml:10", "sead", "unknown field", "seed"],
             ),
         ] {
             let message = refused(line, replacement);

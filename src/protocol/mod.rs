@@ -3,6 +3,7 @@
 //! Everything here is a pure function of (protocol, seed, slot): no clock, no
 //! disk, no window. The same three give the same session on any machine, forever.
 
+pub mod balance;
 mod checks;
 pub mod config;
 pub mod design;
@@ -14,6 +15,7 @@ pub mod plan;
 pub mod procedure;
 pub mod text;
 
+pub use balance::Balance;
 pub use config::Protocol;
 pub use exhibit::{Condition, Exhibit, Pair};
 pub use key::Key;

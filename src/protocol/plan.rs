@@ -210,8 +210,9 @@ impl Planner<'_> {
         if main.is_empty() {
             return Err(PlanError::NoConditions);
         }
-        let order = self.protocol.design.order;
-        let places = order(main.len(), self.protocol.seed, self.slot);
+        let protocol = self.protocol;
+        let order = protocol.design.order;
+        let places = order(main.len(), protocol.seed, self.slot, protocol.inner_order);
         Ok(places
             .into_iter()
             .map(|place| {

@@ -1,5 +1,6 @@
 //! Who has taken part so far, and what that makes of the design's balance.
 
+use crate::protocol::balance::{Aspect, Balance};
 use crate::protocol::{Condition, PlanError, Protocol, SessionPlan};
 use crate::record::{RecordError, Study, study::Standing};
 
@@ -27,7 +28,8 @@ pub fn lines(
         .filter(|standing| is_finished(standing, conditions.len()))
         .map(|standing| standing.slot);
     // A study without a plan is refused long before this page.
-    lines.extend(balance(protocol, conditions, finished).ok().flatten());
+    let plan = |slot| SessionPlan::new(protocol, conditions, slot);
+    lines.extend(balance(plan, finished, next).unwrap_or_default());
     Ok(lines)
 }
 
@@ -56,39 +58,87 @@ fn attendance(standings: &[Standing], pairs: usize) -> String {
     parts.join("; ")
 }
 
-/// How evenly the finished sessions spread the conditions over the positions of a
-/// session, and the pairs over their two orders; `None` before there are any.
+/// How evenly the finished sessions spread what the design spreads, and what the next
+/// place will make of it; nothing before there are any.
 fn balance(
-    protocol: &Protocol,
-    conditions: &[Condition],
+    plan: impl Fn(u32) -> Result<SessionPlan, PlanError>,
     finished: impl Iterator<Item = u32>,
-) -> Result<Option<String>, PlanError> {
-    let count = conditions.len();
-    let mut at_position = vec![0_u32; count * count];
-    let mut reversed = vec![0_u32; count];
-    let mut sessions = 0;
+    next: u32,
+) -> Result<Vec<String>, PlanError> {
+    let mut balance = Balance::default();
     for slot in finished {
-        sessions += 1;
-        let plan = SessionPlan::new(protocol, conditions, slot)?;
-        for trial in &plan.trials {
-            at_position[trial.condition * count + trial.index] += 1;
-            reversed[trial.condition] += u32::from(trial.reversed);
-        }
+        balance.add(&plan(slot)?);
     }
-    let range = |counts: &[u32]| {
-        let low = counts.iter().min().copied().unwrap_or(0);
-        let high = counts.iter().max().copied().unwrap_or(0);
-        if low == high {
-            format!("{low}")
-        } else {
-            format!("{low} to {high}")
-        }
-    };
-    Ok((sessions > 0).then(|| {
+    if balance.sessions() == 0 {
+        return Ok(Vec::new());
+    }
+    let after = balance.if_next(&plan(next)?);
+    Ok(vec![
         format!(
-            "Balance of the {sessions} finished: each pair stood in each position {} times, reversed {} times",
-            range(&at_position),
-            range(&reversed)
-        )
-    }))
+            "Balance of the {} finished: {}",
+            balance.sessions(),
+            counts(&balance)
+        ),
+        format!("With the next participant: {}", counts(&after)),
+    ])
+}
+
+fn counts(balance: &Balance) -> String {
+    let times = |aspect| balance.evenness(aspect).range;
+    format!(
+        "each pair stood in each position {} times, reversed {} times, right after each other \
+         {} times; in each position {} were reversed",
+        times(Aspect::Position),
+        times(Aspect::InnerOrder),
+        times(Aspect::CarryOver),
+        times(Aspect::InnerOrderAtPosition),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    const PROTOCOL: &str = include_str!("../../../protocols/thesis-2010.toml");
+
+    fn said(finished: &[u32], next: u32) -> Vec<String> {
+        let protocol = Protocol::parse(Path::new("p.toml"), PROTOCOL).unwrap();
+        let conditions: Vec<Condition> = ["a", "b", "c"]
+            .map(|id| Condition {
+                id: id.to_owned(),
+                scene: "atrium".to_owned(),
+                techniques: vec!["none".to_owned(), "blizzard24".to_owned()],
+                reference: None,
+                hypothesis: String::new(),
+            })
+            .into();
+        let plan = |slot| SessionPlan::new(&protocol, &conditions, slot);
+        balance(plan, finished.iter().copied(), next).unwrap()
+    }
+
+    /// Three pairs: participants 0 to 2 see a Latin square, 3 to 5 the same reversed.
+    #[test]
+    fn the_last_participant_of_a_block_makes_it_even() {
+        let lines = said(&[0, 1, 2, 3, 4], 5);
+        let [now, then] = lines.as_slice() else {
+            panic!("{lines:?}")
+        };
+        assert!(now.starts_with("Balance of the 5 finished: "), "{now}");
+        assert!(
+            now.contains("in each position 1 to 2 times, reversed 2 times"),
+            "{now}"
+        );
+        assert!(
+            then.contains("in each position 2 times, reversed 3 times"),
+            "{then}"
+        );
+        assert!(then.ends_with("in each position 3 were reversed"), "{then}");
+    }
+
+    #[test]
+    fn before_anybody_has_finished_there_is_nothing_to_say() {
+        assert!(said(&[], 0).is_empty());
+    }
 }
