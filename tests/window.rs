@@ -266,7 +266,10 @@ fn assert_rest(window: &Window) {
 fn check_rows(study: &Tiny) {
     let rows = read_folder(&study.path("results")).expect("the data is readable");
     let responses: Vec<_> = rows.rows.iter().map(|row| row.response).collect();
-    assert_eq!(responses, [Some(Position::Second), Some(Position::First)]);
+    assert_eq!(
+        responses,
+        [Some(Position::Second.into()), Some(Position::First.into())]
+    );
     for row in &rows.rows {
         assert_eq!(row.participant_id, "P01");
         let grey_ns = row
