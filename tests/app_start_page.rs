@@ -189,7 +189,7 @@ fn an_interrupted_session_goes_on_after_a_confirmation() {
     lab.harness.get_by_label_contains("unfinished: P01");
     lab.type_id("P01");
     lab.harness
-        .get_by_label_contains("1 of 2 pairs are on record");
+        .get_by_label_contains("1 of 2 trials are on record");
     lab.click("Resume session …");
     lab.click("No");
     lab.click("Resume session …");

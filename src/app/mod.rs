@@ -18,6 +18,7 @@ pub mod clock;
 pub mod display;
 pub mod error;
 mod experimenter_window;
+pub mod gamepad;
 pub mod participant;
 pub mod pictures;
 pub mod sitting;

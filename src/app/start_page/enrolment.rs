@@ -3,6 +3,7 @@
 
 use eframe::egui::{Key, Margin, TextEdit, Ui, vec2};
 
+use super::screens::{self, Screens};
 use super::{Facts, Request};
 use crate::app::theme;
 use crate::record::ParticipantId;
@@ -29,6 +30,8 @@ pub struct Enrolling {
     confirming: bool,
     /// Why the last attempt failed.
     pub failure: Option<String>,
+    /// How the participant's pages are to look.
+    pub screens: Screens,
 }
 
 #[derive(Debug)]
@@ -65,6 +68,7 @@ pub fn show(ui: &mut Ui, facts: &Facts<'_>, form: &mut Enrolling) -> Option<Requ
         .show(ui, |ui| {
             ui.set_min_width(ui.available_width());
             let entered = entry(ui, form);
+            screens::show(ui, facts, &mut form.screens);
             form.check(facts);
             let blocker = facts.blocker();
             let request = match form.known.as_ref().map(|known| &known.id) {
@@ -136,19 +140,19 @@ fn resume(
     id: &ParticipantId,
     done: usize,
 ) -> bool {
-    let total = facts.pairs;
+    let total = facts.trials;
     if done >= total {
         start_button(ui, "Start session", false);
         note(
             ui,
-            &format!("{id} has finished this study ({done} of {total} pairs). Give another id."),
+            &format!("{id} has finished this study ({done} of {total} trials). Give another id."),
         );
         return false;
     }
     note(
         ui,
         &format!(
-            "{id} has an unfinished session: {done} of {total} pairs are on record. It can go on with pair {}.",
+            "{id} has an unfinished session: {done} of {total} trials are on record. It can go on with number {}.",
             done + 1
         ),
     );
@@ -159,7 +163,7 @@ fn resume(
     note(
         ui,
         &format!(
-            "Is this the same person? The interruption goes on record with pair {}.",
+            "Is this the same person? The interruption goes on record with trial {}.",
             done + 1
         ),
     );

@@ -24,8 +24,8 @@ pub struct Facts<'a> {
     pub station: &'a str,
     /// Rows are marked as pilot data.
     pub pilot: bool,
-    /// Pairs in a session.
-    pub pairs: usize,
+    /// Trials of a whole session.
+    pub trials: usize,
     /// Images in the set, and the size they all fit in.
     pub images: (usize, SizePx),
     /// How the check of the images stands.

@@ -4,12 +4,14 @@
 mod enrolment;
 mod facts;
 mod overview;
+mod screens;
 
 use eframe::egui::{Color32, Frame, Margin, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
 pub use enrolment::{Enrolling, OnRecord};
 pub use facts::Facts;
 pub use overview::lines as participants;
+pub use screens::Screens;
 
 use super::{stimulus_view, theme};
 use crate::record::ParticipantId;
@@ -79,8 +81,8 @@ fn heading(ui: &mut Ui, facts: &Facts<'_>) {
         }
     });
     ui.label(theme::quiet(format!(
-        "{} pairs: {}.",
-        facts.pairs, facts.protocol.procedure.summary
+        "{} trials: {}.",
+        facts.trials, facts.protocol.procedure.summary
     )));
     ui.add_space(14.0);
 }
