@@ -234,6 +234,7 @@ impl Application {
             // With one frame in flight and vertical sync, light follows the call
             // within the refresh it waited for and the one that scans it out.
             onset_uncertainty_ms: display.refresh_hz.map(|hz| 2000.0 / hz),
+            refresh_period_ns: None,
             input_device: InputDevice::Keyboard,
         };
         let clock = (self.make_clock)();

@@ -137,6 +137,7 @@ impl Headless<'_> {
             started_utc: now,
             onset_method: OnsetMethod::Virtual,
             onset_uncertainty_ms: Some(0.0),
+            refresh_period_ns: None,
             input_device: InputDevice::Scripted,
         };
         let mut session = start::start(self.protocol, self.manifest, &enrolment, &setting)?;

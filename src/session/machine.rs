@@ -2,7 +2,7 @@
 
 use super::info::SessionInfo;
 use super::trial_log::TrialLog;
-use super::{Effect, Event, Screen, SessionTime};
+use super::{Deadline, Effect, Event, Screen, SessionTime};
 use crate::protocol::procedure::{Step, Until};
 use crate::protocol::{Position, Protocol, SessionPlan};
 use crate::record::TrialRow;
@@ -15,7 +15,8 @@ use crate::record::TrialRow;
 /// current screen are ignored, so a driver may send what it gets.
 ///
 /// The images, the grey and the question take no input before their first
-/// [`Event::Shown`]: what the participant has not seen cannot be answered.
+/// [`Event::Shown`]: what the participant has not seen cannot be answered. For the
+/// same reason input received before that frame is ignored, whenever it is reported.
 #[derive(Debug, Clone)]
 pub struct Session {
     plan: SessionPlan,
@@ -27,8 +28,12 @@ pub struct Session {
     screen_serial: u64,
     /// When the current screen became the one to show.
     entered_at: SessionTime,
-    /// First frame of the current screen.
+    /// First frame of the current screen, as well as it is known by now.
     shown_at: Option<SessionTime>,
+    /// The same as it was first reported: what frames to come are compared with.
+    handed_over_at: Option<SessionTime>,
+    /// Frames reported with the current screen.
+    frames_shown: u64,
     /// Latest time seen: time never runs backwards.
     now: SessionTime,
     trial_log: TrialLog,
@@ -78,6 +83,8 @@ impl Session {
             screen_serial: 0,
             entered_at: SessionTime::default(),
             shown_at: None,
+            handed_over_at: None,
+            frames_shown: 0,
             now: SessionTime::default(),
             unsaved: None,
             stored,
@@ -102,10 +109,15 @@ impl Session {
         self.shown_at.is_some()
     }
 
-    /// When to send [`Event::Tick`] at the latest: the end of a timed screen.
-    /// `None` where nothing ends by itself.
+    /// When to send [`Event::Tick`] (where frames are counted,
+    /// [`Event::NextFrame`]) at the latest: the end of a timed screen. `None` where
+    /// nothing ends by itself.
     #[must_use]
     pub fn wake_at(&self) -> Option<SessionTime> {
+        self.deadline().map(|deadline| deadline.at())
+    }
+
+    fn deadline(&self) -> Option<Deadline> {
         let State::Step(step) = self.state else {
             return None;
         };
@@ -117,8 +129,20 @@ impl Session {
             } => duration_ns,
             _ => return None,
         };
-        self.shown_at.map(|onset| SessionTime {
-            ns: onset.ns.saturating_add(duration_ns),
+        self.handed_over_at.map(|onset| Deadline {
+            onset,
+            duration_ns,
+            period_ns: self.info.refresh_period_ns,
+        })
+    }
+
+    /// Whether this event ends the timed screen that stands.
+    fn is_end(&self, event: &Event) -> bool {
+        self.deadline().is_some_and(|deadline| match event {
+            Event::NextFrame { expected } if self.info.refresh_period_ns.is_some() => {
+                deadline.next_frame_is_after(self.frames_shown, *expected)
+            }
+            _ => deadline.has_passed(self.now),
         })
     }
 
@@ -144,12 +168,15 @@ impl Session {
     pub fn handle(&mut self, event: Event, at: SessionTime) -> Vec<Effect> {
         self.now = self.now.max(at);
         self.note(&event);
-        if self.wake_at().is_some_and(|deadline| self.now >= deadline) {
+        if self.is_end(&event) {
             self.next_step();
             // What was pressed or shown belongs to the screen that has just ended.
             if !matches!(event, Event::Abort) {
                 return Vec::new();
             }
+        }
+        if is_input(&event) && self.shown_at.is_some_and(|onset| at < onset) {
+            return Vec::new();
         }
         match (self.state, event) {
             (State::Closing | State::Aborted, _) => Vec::new(),
@@ -202,7 +229,22 @@ impl Session {
             Event::FocusGained => self.trial_log.focus_gained(),
             Event::MissedFrames(count) => self.trial_log.missed_frames(*count),
             Event::UsedDevice(device) => self.trial_log.input_device = *device,
+            Event::OnsetKnown {
+                screen_serial,
+                at,
+                uncertainty_ns,
+            } => self.onset_known(*screen_serial, *at, *uncertainty_ns),
             _ => {}
+        }
+    }
+
+    fn onset_known(&mut self, screen_serial: u64, at: SessionTime, uncertainty_ns: u64) {
+        let taken = at <= self.now
+            && self
+                .trial_log
+                .onset_known(screen_serial, at, uncertainty_ns);
+        if taken && screen_serial == self.screen_serial {
+            self.shown_at = Some(at);
         }
     }
 
@@ -212,18 +254,23 @@ impl Session {
         self.screen_serial += 1;
         self.entered_at = self.now;
         self.shown_at = None;
+        self.handed_over_at = None;
+        self.frames_shown = 0;
     }
 
     /// A display may report a frame after later events: its own time counts, not
     /// the time of the report, but never one before the screen was asked for.
     fn shown(&mut self, at: SessionTime) {
+        self.frames_shown += 1;
         if self.shown_at.is_some() {
             return;
         }
         let onset = at.max(self.entered_at);
         self.shown_at = Some(onset);
+        self.handed_over_at = Some(onset);
         if let State::Step(step) = self.state {
-            self.trial_log.onset(self.steps[step], onset);
+            self.trial_log
+                .onset(self.steps[step], self.screen_serial, onset);
         }
     }
 
@@ -299,4 +346,12 @@ impl Session {
             self.next_trial();
         }
     }
+}
+
+/// Whether an event is something the participant did in answer to the screen.
+fn is_input(event: &Event) -> bool {
+    matches!(
+        event,
+        Event::Begin | Event::StartPair(_) | Event::Continue | Event::Answer(_)
+    )
 }

@@ -3,7 +3,9 @@
 //! every path of it can be tested; the application and the scripted observers
 //! drive the same [`Session`](machine::Session).
 
+pub mod deadline;
 pub mod event;
+pub mod frames;
 pub mod headless;
 pub mod info;
 pub mod machine;
@@ -14,7 +16,9 @@ pub mod start;
 mod tests;
 mod trial_log;
 
+pub use deadline::Deadline;
 pub use event::{Effect, Event, SessionTime};
+pub use frames::{FrameFigures, FrameMeter};
 pub use info::{PairHashes, SessionInfo};
 pub use machine::Session;
 pub use screen::Screen;

@@ -21,6 +21,9 @@ pub struct Setting {
     pub onset_method: OnsetMethod,
     /// How far they may lie from the light of the display, either way.
     pub onset_uncertainty_ms: Option<f64>,
+    /// Time from refresh to refresh, where frames are known to keep to it
+    /// (see [`SessionInfo::refresh_period_ns`]).
+    pub refresh_period_ns: Option<u64>,
     /// The device answers come from at first.
     pub input_device: InputDevice,
 }
@@ -107,6 +110,7 @@ pub fn start(
         started_utc: setting.started_utc,
         onset_method: setting.onset_method,
         onset_uncertainty_ms: setting.onset_uncertainty_ms,
+        refresh_period_ns: setting.refresh_period_ns,
         input_device: setting.input_device,
         images: manifest
             .pairs

@@ -7,7 +7,7 @@ use super::info::SessionInfo;
 use super::machine::Identity;
 use crate::protocol::procedure::Step;
 use crate::protocol::{Position, SessionPlan, Trial};
-use crate::record::row::{InputDevice, Outcome, SCHEMA_VERSION};
+use crate::record::row::{InputDevice, OnsetMethod, Outcome, SCHEMA_VERSION};
 use crate::record::{TrialRow, study::iso_8601};
 
 /// When something was on the display.
@@ -17,6 +17,16 @@ struct Interval {
     offset: Option<SessionTime>,
 }
 
+/// A step that was on the display.
+#[derive(Debug, Clone, Copy)]
+struct Shown {
+    step: Step,
+    screen_serial: u64,
+    onset: SessionTime,
+    /// How well the display system knows the onset; absent while it is an estimate.
+    measured_uncertainty_ns: Option<u64>,
+}
+
 /// Onsets and mishaps of the running trial.
 #[derive(Debug, Clone)]
 pub(super) struct TrialLog {
@@ -24,7 +34,8 @@ pub(super) struct TrialLog {
     grey: Interval,
     second: Interval,
     question: Interval,
-    showing: Option<Step>,
+    /// Every step so far, in order.
+    shown: Vec<Shown>,
     missed_frames: Option<u32>,
     focus_lost: u32,
     unfocused: bool,
@@ -38,7 +49,7 @@ impl TrialLog {
             grey: Interval::default(),
             second: Interval::default(),
             question: Interval::default(),
-            showing: None,
+            shown: Vec::new(),
             missed_frames: None,
             focus_lost: 0,
             unfocused: false,
@@ -69,11 +80,66 @@ impl TrialLog {
     }
 
     /// The first frame of a step, which is the first one without the step before it.
-    pub fn onset(&mut self, step: Step, at: SessionTime) {
-        if let Some(before) = self.showing.replace(step) {
-            self.interval(before).offset = Some(at);
+    pub fn onset(&mut self, step: Step, screen_serial: u64, at: SessionTime) {
+        self.shown.push(Shown {
+            step,
+            screen_serial,
+            onset: at,
+            measured_uncertainty_ns: None,
+        });
+        self.note_onset(self.shown.len() - 1);
+    }
+
+    /// Replaces the estimate of an onset by what the display system says. False,
+    /// and nothing changed, if the screen is not of this trial or the time cannot
+    /// be its own: not between the onsets of the steps round it.
+    pub fn onset_known(
+        &mut self,
+        screen_serial: u64,
+        at: SessionTime,
+        uncertainty_ns: u64,
+    ) -> bool {
+        let same = |shown: &Shown| shown.screen_serial == screen_serial;
+        let Some(index) = self.shown.iter().position(same) else {
+            return false;
+        };
+        let after_the_one_before = index == 0 || self.shown[index - 1].onset <= at;
+        let before_the_next = self
+            .shown
+            .get(index + 1)
+            .is_none_or(|next| at <= next.onset);
+        if !(after_the_one_before && before_the_next) {
+            return false;
         }
-        self.interval(step).onset = Some(at);
+        self.shown[index].onset = at;
+        self.shown[index].measured_uncertainty_ns = Some(uncertainty_ns);
+        self.note_onset(index);
+        true
+    }
+
+    /// Puts the onset of a step where the row takes it from; it is the offset of
+    /// the step before.
+    fn note_onset(&mut self, index: usize) {
+        let Shown { step, onset, .. } = self.shown[index];
+        if let Some(before) = index.checked_sub(1) {
+            let before = self.shown[before].step;
+            self.interval(before).offset = Some(onset);
+        }
+        self.interval(step).onset = Some(onset);
+    }
+
+    /// How the onsets of the row were obtained, and how far they may be off: from
+    /// the display system only if it told every one.
+    fn onset_method(&self, info: &SessionInfo) -> (OnsetMethod, Option<f64>) {
+        let uncertainties: Option<Vec<u64>> = self
+            .shown
+            .iter()
+            .map(|shown| shown.measured_uncertainty_ns)
+            .collect();
+        match uncertainties.and_then(|all| all.into_iter().max()) {
+            Some(largest_ns) => (OnsetMethod::PresentFeedback, Some(largest_ns as f64 / 1e6)),
+            None => (info.onset_method, info.onset_uncertainty_ms),
+        }
     }
 
     fn interval(&mut self, step: Step) -> &mut Interval {
@@ -110,6 +176,7 @@ impl TrialLog {
         };
         let (first_hash, second_hash) = hashes(info, trial);
         let answered_utc = wall_clock(info, answered);
+        let (onset_method, onset_uncertainty_ms) = self.onset_method(info);
         TrialRow {
             row_id: row_id(info, trial),
             schema_version: SCHEMA_VERSION,
@@ -138,8 +205,8 @@ impl TrialLog {
             second_offset_ns: ns(self.second.offset),
             question_onset_ns: ns(self.question.onset),
             response_ns: Some(answered.ns),
-            onset_method: info.onset_method,
-            onset_uncertainty_ms: info.onset_uncertainty_ms,
+            onset_method,
+            onset_uncertainty_ms,
             missed_frames: self.missed_frames,
             response: Some(choice),
             chosen_technique: Some(chosen.to_owned()),

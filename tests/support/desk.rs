@@ -124,6 +124,7 @@ fn sitting(
         started_utc: time::OffsetDateTime::UNIX_EPOCH,
         onset_method: OnsetMethod::PresentCall,
         onset_uncertainty_ms: None,
+        refresh_period_ns: None,
         input_device: InputDevice::Keyboard,
         images: study
             .manifest

@@ -1,5 +1,6 @@
 //! The no-reference session: every path, every row, and random events on top.
 
+mod onsets;
 mod random;
 mod rows;
 mod screens;
@@ -41,6 +42,7 @@ fn info(answered: usize) -> SessionInfo {
         started_utc: datetime!(2026-03-01 10:00 UTC),
         onset_method: OnsetMethod::PresentCall,
         onset_uncertainty_ms: Some(16.7),
+        refresh_period_ns: None,
         input_device: InputDevice::Keyboard,
         images: ["a", "b", "c"]
             .map(|id| PairHashes {
