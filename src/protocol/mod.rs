@@ -5,11 +5,13 @@
 
 pub mod config;
 pub mod design;
+pub mod display;
 pub mod key;
 pub mod plan;
 pub mod procedure;
 pub mod text;
 
 pub use config::Protocol;
+pub use display::DisplayRequirements;
 pub use key::Key;
 pub use plan::{Condition, Phase, PlanError, Position, SessionPlan, Trial};

@@ -4,6 +4,7 @@
 //! drive the same [`Session`](machine::Session).
 
 pub mod deadline;
+pub mod display_gate;
 pub mod event;
 pub mod frames;
 pub mod headless;
@@ -17,6 +18,7 @@ mod tests;
 mod trial_log;
 
 pub use deadline::Deadline;
+pub use display_gate::{DisplayFigures, Verdict};
 pub use event::{Effect, Event, SessionTime};
 pub use frames::{FrameFigures, FrameMeter};
 pub use info::{PairHashes, SessionInfo};
