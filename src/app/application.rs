@@ -13,7 +13,9 @@ use winit::window::Window;
 use super::browser::{Browser, Folder};
 use super::clock::Clock;
 use super::display::DisplayFacts;
+use super::full_screen::FullScreen;
 use super::pictures::Pictures;
+use super::present_feedback::PresentFeedback;
 use super::sitting::Sitting;
 use super::start_page::{self, Enrolling, Facts, Next, OnRecord, Request};
 use super::stimuli_check::StimuliCheck;
@@ -24,10 +26,6 @@ use crate::protocol::Protocol;
 use crate::record::{Enrolment, InputDevice, OnsetMethod, ParticipantId, Study};
 use crate::session::start::{self, Setting};
 use crate::stimulus::{Manifest, StimulusSet};
-
-/// How long the window system has to cover the screen. Nobody reads instructions
-/// faster, so no image is on screen yet.
-const FULL_SCREEN_PATIENCE: Duration = Duration::from_millis(700);
 
 /// A study, ready to run.
 #[derive(Debug)]
@@ -63,9 +61,13 @@ pub struct Application {
     sitting: Option<Box<Sitting>>,
     /// The stimulus browser, opened from the start page; never during a session.
     browser: Option<Box<Browser>>,
-    /// Since when the session should cover the screen; `None` once that is settled.
-    covering_since: Option<Instant>,
+    full_screen: FullScreen,
     first_frame_seen: bool,
+    /// What the display system tells about the window's frames.
+    feedback: Option<PresentFeedback>,
+    /// When the last pass began, until its frame is handed over; a hidden window
+    /// has no passes, and no frames.
+    begun: Option<Instant>,
     /// Frames handed to the display so far.
     frames: u64,
     make_clock: Box<dyn Fn() -> Clock>,
@@ -88,8 +90,10 @@ impl Application {
             enrolling: Enrolling::default(),
             sitting: None,
             browser: None,
-            covering_since: None,
+            full_screen: FullScreen::default(),
             first_frame_seen: false,
+            feedback: None,
+            begun: None,
             frames: 0,
             make_clock: Box::new(Clock::start),
         };
@@ -184,8 +188,7 @@ impl Application {
                 self.sitting = Some(Box::new(sitting));
                 self.enrolling = Enrolling::default();
                 if !self.setup.windowed {
-                    ctx.send_viewport_cmd(ViewportCommand::Fullscreen(true));
-                    self.covering_since = Some(Instant::now());
+                    self.full_screen.enter(ctx);
                 }
             }
             Err(message) => {
@@ -194,29 +197,6 @@ impl Application {
             }
         }
         ctx.request_repaint();
-    }
-
-    /// Makes the window as large as the monitor where asking for the full screen
-    /// was not enough: without a window manager nobody else does it.
-    fn cover_screen(&mut self, ctx: &Context) {
-        let Some(since) = self.covering_since else {
-            return;
-        };
-        let found = DisplayFacts::read(ctx, self.window.as_deref());
-        let Some(monitor_px) = found.monitor_px else {
-            self.covering_since = None;
-            return;
-        };
-        if let Some(left) = FULL_SCREEN_PATIENCE.checked_sub(since.elapsed()) {
-            ctx.request_repaint_after(left);
-            return;
-        }
-        self.covering_since = None;
-        if found.window_px != monitor_px {
-            tracing::warn!(?found, "the full screen was refused; enlarging the window");
-            let points = monitor_px.map(|px| px as f32 / found.scale_factor);
-            ctx.send_viewport_cmd(ViewportCommand::InnerSize(points.into()));
-        }
     }
 
     fn sit_down(&self, request: &Request, display: &DisplayFacts) -> Result<Sitting, String> {
@@ -248,6 +228,11 @@ impl Application {
             Box::new(move |effect| start::perform(effect, &mut enrolment.log)),
             pictures,
             self.image_px(),
+        )
+        .with_refresh_period(
+            display
+                .refresh_hz
+                .and_then(|hz| Duration::try_from_secs_f64(1.0 / hz).ok()),
         ))
     }
 
@@ -274,14 +259,25 @@ impl Application {
             return;
         }
         self.sitting = None;
-        self.covering_since = None;
         self.count_participants();
         // An image may have changed meanwhile.
         self.stimuli = StimuliCheck::Waiting;
         if !self.setup.windowed {
-            ctx.send_viewport_cmd(ViewportCommand::Fullscreen(false));
+            self.full_screen.leave(ctx);
         }
         ctx.request_repaint();
+    }
+
+    /// Hands on what the display system has told about earlier frames.
+    fn take_feedback(&mut self) {
+        let Some(feedback) = &mut self.feedback else {
+            return;
+        };
+        for frame in feedback.displayed() {
+            if let Some(sitting) = &mut self.sitting {
+                sitting.displayed(frame);
+            }
+        }
     }
 
     /// A running session does not end because somebody hit the key that closes
@@ -308,8 +304,10 @@ fn image_px(manifest: &Manifest) -> SizePx {
 
 impl Content for Application {
     fn ui(&mut self, ui: &mut Ui) {
+        self.begun = Some(Instant::now());
         self.refuse_to_close(ui.ctx());
-        self.cover_screen(ui.ctx());
+        self.take_feedback();
+        self.full_screen.keep(ui.ctx(), self.window.as_deref());
         match (&mut self.sitting, &mut self.browser) {
             (Some(sitting), _) => sitting.ui(ui),
             (None, Some(browser)) => browser.ui(ui),
@@ -330,6 +328,7 @@ impl Content for Application {
         let elapsed = self.setup.started.elapsed();
         tracing::debug!(ms = elapsed.as_millis(), "window and adapter ready");
         theme::install(ctx);
+        self.feedback = window.as_deref().and_then(PresentFeedback::listen);
         self.window = window;
     }
 
@@ -346,9 +345,13 @@ impl Content for Application {
             let elapsed = at.saturating_duration_since(self.setup.started);
             tracing::info!(ms = elapsed.as_millis(), "first frame");
         }
+        if let (Some(feedback), Some(begun)) = (&mut self.feedback, self.begun.take()) {
+            feedback.handed_over(begun, at);
+        }
         if let Some(sitting) = &mut self.sitting {
             sitting.presented(ctx, at);
         }
+        self.take_feedback();
     }
 
     fn clear_level(&self) -> u8 {
