@@ -6,6 +6,8 @@
 mod desk;
 mod support;
 
+use std::time::Duration;
+
 use desk::{Desk, SECOND_NS, SIZE_PX, WINDOW, assert_picture};
 use eframe::egui::{self, Key, Modifiers, Vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -151,15 +153,88 @@ fn the_grey_cannot_be_skipped_and_wakes_by_itself() {
 }
 
 #[test]
-fn nothing_is_painted_while_an_image_stands() {
+fn frames_follow_each_other_while_a_picture_stands_and_pages_rest() {
     let mut desk = Desk::new(1);
+    assert_at_rest(&mut desk);
+    desk.click("Begin");
+    assert_at_rest(&mut desk);
+    desk.click("Pair 1");
+    assert_moving(&mut desk);
+    desk.press(Key::Space);
+    assert_eq!(desk.screen(), Screen::Grey { trial: 0 });
+    assert_moving(&mut desk);
+    desk.pass_time(2 * SECOND_NS);
+    desk.frame();
+    assert_moving(&mut desk);
+    desk.press(Key::Space);
+    assert_at_rest(&mut desk);
+}
+
+/// After every frame the next one is asked for.
+fn assert_moving(desk: &mut Desk) {
+    for _ in 0..5 {
+        desk.frame();
+        assert!(desk.harness.ctx.has_requested_repaint());
+    }
+}
+
+/// No further frame is asked for, once buttons have faded and images are decoded.
+fn assert_at_rest(desk: &mut Desk) {
+    let rests = (0..200).any(|_| {
+        std::thread::sleep(Duration::from_millis(10));
+        desk.frame();
+        !desk.harness.ctx.has_requested_repaint()
+    });
+    assert!(rests, "{:?}", desk.screen());
+}
+
+const PERIOD_NS: u64 = 16_666_667;
+
+/// One trial at 60 frames a second, of which the frames numbered in `late` come 1.6
+/// periods after the one before.
+fn frames_missed(late: &[u32]) -> Option<u32> {
+    let period = Duration::from_nanos(PERIOD_NS);
+    let mut desk = Desk::on_display(Tiny::new(1, SIZE_PX), Some(period));
     desk.click("Begin");
     desk.click("Pair 1");
-    for _ in 0..3 {
+    for frame in 0..180 {
+        desk.pass_time(if late.contains(&frame) {
+            PERIOD_NS * 16 / 10
+        } else {
+            PERIOD_NS
+        });
+        if frame == 20 || frame == 170 {
+            desk.harness.key_press(Key::Space);
+        }
         desk.frame();
     }
-    let delay = desk.harness.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay;
-    assert_eq!(delay, std::time::Duration::MAX);
+    assert_eq!(desk.screen(), Screen::Question { trial: 0 });
+    // A page of text: nothing is drawn meanwhile, and nothing is missed.
+    desk.pass_time(20 * SECOND_NS);
+    desk.press(Key::Num1);
+    let missed = desk.rows.borrow()[0].missed_frames;
+    missed
+}
+
+#[test]
+fn every_late_frame_of_a_trial_is_on_record_and_no_other() {
+    assert_eq!(frames_missed(&[]), Some(0));
+    // In the first image, its change to grey, the grey, its end, the last change.
+    for late in [10, 20, 60, 140, 150, 170] {
+        assert_eq!(frames_missed(&[late]), Some(1), "{late}");
+    }
+    assert_eq!(frames_missed(&[5, 30, 31, 160]), Some(4));
+    // On the page after: no frame is due.
+    assert_eq!(frames_missed(&[175]), Some(0));
+}
+
+#[test]
+fn where_the_period_is_unknown_nobody_counts() {
+    let mut desk = Desk::new(1);
+    desk.click("Begin");
+    desk.look_at_pair(1);
+    desk.press(Key::Num1);
+    assert_eq!(desk.rows.borrow()[0].missed_frames, None);
 }
 
 #[test]

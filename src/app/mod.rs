@@ -4,6 +4,11 @@
 //! ```text
 //! window       the event loop, and when things happened
 //! application  start page, then one session after another
+//! readiness    between the two: is the display as the protocol asks?
+//! display_check  a second of grey before a session: does the display keep time
+//! full_screen  covering the monitor
+//! present_feedback  when frames were on the display, where the system tells
+//! pace         when to ask for the next frame while a picture stands
 //! sitting      one session on the screen: input in, picture out, rows to disk
 //! participant  one file a screen
 //! browser      the stimuli, for the experimenter alone
@@ -16,11 +21,16 @@ pub mod arrangement;
 pub mod browser;
 pub mod clock;
 pub mod display;
+pub mod display_check;
 pub mod error;
 mod experimenter_window;
+pub mod full_screen;
 pub mod gamepad;
+pub mod pace;
 pub mod participant;
 pub mod pictures;
+pub mod present_feedback;
+pub mod readiness;
 pub mod sitting;
 pub mod stage;
 pub mod start_page;

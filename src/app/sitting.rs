@@ -9,19 +9,25 @@ use std::time::{Duration, Instant};
 use eframe::egui::{self, Context, Ui};
 
 use super::clock::Clock;
+use super::gamepad;
+use super::pace::{Pace, USUAL_PERIOD};
 use super::participant::{
     self, Given, Look, Page, closing, comparison, consent, form, grey, image, instructions,
     pair_menu, pause, question, ranking, rating, saving, trouble,
 };
 use super::pictures::Pictures;
+use super::present_feedback::Displayed;
 use super::stimulus_view::{self, SizePx};
 use crate::protocol::config::GreyArea;
 use crate::protocol::{Pause, Protocol, Words};
 use crate::record::InputDevice;
-use crate::session::{Effect, Event, Screen, Session, SessionTime};
+use crate::session::{Effect, Event, FrameFigures, FrameMeter, Screen, Session, SessionTime};
 
 /// How long the abort chord must be held: long enough that nobody does it by accident.
 const ABORT_HOLD: Duration = Duration::from_secs(1);
+
+/// First frames whose reports may still come.
+const REMEMBERED: usize = 16;
 
 /// Does what an effect asks and says how it went.
 pub type Store = Box<dyn FnMut(&Effect) -> Event>;
@@ -42,8 +48,18 @@ pub struct Sitting {
     pressed_at: Option<Instant>,
     /// When the abort chord went down, while it is held.
     chord_since: Option<SessionTime>,
-    /// Serial of the screen in the last pass, if it could be drawn as it should be.
+    /// Serial of the screen in the last pass, if it could be drawn as it should be;
+    /// taken when its frame is handed over, so that a frame without a pass (of a
+    /// hidden window) counts for nothing.
     painted: Option<u64>,
+    /// Counts late frames, where the display's period is known.
+    meter: Option<FrameMeter>,
+    pace: Pace,
+    /// When the last frame was handed over.
+    presented_at: Option<SessionTime>,
+    /// First frames of screens, by the time they were handed over, and their
+    /// screen's serial; the latest few, for what the display system tells of them.
+    first_frames: VecDeque<(Instant, u64)>,
     /// Serial of the last screen reported as shown.
     shown: Option<u64>,
     /// What keeps the current screen from being drawn, for the experimenter.
@@ -90,6 +106,10 @@ impl Sitting {
             pressed_at: None,
             chord_since: None,
             painted: None,
+            meter: None,
+            pace: Pace::new(USUAL_PERIOD),
+            presented_at: None,
+            first_frames: VecDeque::new(),
             shown: None,
             obstacle: None,
             left: false,
@@ -101,6 +121,18 @@ impl Sitting {
     pub fn with_type(mut self, text_scale: f32, high_contrast: bool) -> Self {
         self.look.text_scale = text_scale;
         self.look.high_contrast = high_contrast;
+        self
+    }
+
+    /// The same on a display with this time from refresh to refresh, as stated or
+    /// measured. Without it nobody counts late frames.
+    #[must_use]
+    pub fn with_refresh_period(mut self, period: Option<Duration>) -> Self {
+        let period = period.filter(|period| !period.is_zero());
+        self.meter = period
+            .and_then(|period| u64::try_from(period.as_nanos()).ok())
+            .map(FrameMeter::new);
+        self.pace = Pace::new(period.unwrap_or(USUAL_PERIOD));
         self
     }
 
@@ -135,6 +167,7 @@ impl Sitting {
             self.give(given, received);
         }
         self.send(Event::Tick, self.clock.now());
+        self.next_frame();
         self.prepare_pictures(&ctx);
 
         let serial = self.session.screen_serial();
@@ -153,17 +186,58 @@ impl Sitting {
     /// The last pass was handed to the display; the call returned at `at`.
     pub fn presented(&mut self, ctx: &Context, at: Instant) {
         let serial = self.session.screen_serial();
-        if self.painted == Some(serial) && self.shown != Some(serial) {
-            self.shown = Some(serial);
-            let at = self.clock.at(at);
-            self.send(Event::Shown, at);
-            tracing::debug!(screen = ?self.session.screen(), at_ns = at.ns, "shown");
+        let time = self.clock.at(at);
+        self.presented_at = Some(time);
+        let painted = self.painted.take();
+        if painted.is_some() {
+            self.count(time);
         }
-        // Nothing else wakes the window while a screen stands.
+        if painted == Some(serial) {
+            if self.shown.replace(serial) != Some(serial) {
+                tracing::debug!(screen = ?self.session.screen(), at_ns = time.ns, "shown");
+                self.first_frames.push_back((at, serial));
+                if self.first_frames.len() > REMEMBERED {
+                    self.first_frames.pop_front();
+                }
+            }
+            self.send(Event::Shown, time);
+        }
+        // A timed screen may have ended with this very frame.
+        let changed = self.session.screen_serial() != serial;
+        if painted.is_some() && (changed || self.is_moving()) {
+            // At once, and once: without a delay egui would draw it twice.
+            let wait = self.pace.presented(at).max(Duration::from_nanos(1));
+            ctx.request_repaint_after(wait);
+        } else {
+            self.pause();
+        }
+        // Wakes the window where a screen ends by itself and frames do not do it.
         if let Some(wake) = self.session.wake_at() {
             let left_ns = wake.ns.saturating_sub(self.clock.now().ns);
             ctx.request_repaint_after(Duration::from_nanos(left_ns));
         }
+    }
+
+    /// The display system has told when a frame was on the display.
+    pub fn displayed(&mut self, frame: Displayed) {
+        let first = self
+            .first_frames
+            .iter()
+            .find(|(handed_over, _)| *handed_over == frame.handed_over);
+        if let Some(&(_, screen_serial)) = first {
+            let event = Event::OnsetKnown {
+                screen_serial,
+                at: self.clock.at(frame.at),
+                uncertainty_ns: u64::try_from(self.pace.period().as_nanos()).unwrap_or(u64::MAX),
+            };
+            self.send(event, self.clock.now());
+        }
+    }
+
+    /// What the frames of the session so far were like; `None` where nobody counts.
+    #[must_use]
+    pub fn frame_figures(&self) -> Option<FrameFigures> {
+        self.meter.as_ref().map(FrameMeter::figures)
     }
 
     /// Grey level behind everything (8-bit sRGB).
@@ -174,6 +248,54 @@ impl Sitting {
             GreyArea::Screen => grey.level_srgb.get(),
             // Black, as a display is where it shows nothing.
             GreyArea::Image => 0,
+        }
+    }
+
+    /// Frames follow each other without a break while a picture or a timed screen
+    /// stands: the next screen is then a frame away at any time, and a frame that
+    /// comes late is noticed. Pages of text rest.
+    fn is_moving(&self) -> bool {
+        matches!(
+            self.session.screen(),
+            Screen::Image { .. } | Screen::Grey { .. }
+        ) || self.session.wake_at().is_some()
+    }
+
+    /// Tells the session when the frame of this pass will be handed over: a period
+    /// after the one before, or now if it is late.
+    fn next_frame(&mut self) {
+        let now = self.clock.now();
+        let period_ns = u64::try_from(self.pace.period().as_nanos()).unwrap_or(u64::MAX);
+        let next = |last: SessionTime| SessionTime {
+            ns: last.ns.saturating_add(period_ns),
+        };
+        let expected = self.presented_at.map_or(now, next).max(now);
+        self.send(Event::NextFrame { expected }, now);
+    }
+
+    /// Counts a frame that was handed over.
+    fn count(&mut self, at: SessionTime) {
+        let missed = self.meter.as_mut().and_then(|meter| meter.presented(at));
+        if let Some(missed) = missed {
+            if missed > 0 {
+                tracing::debug!(missed, at_ns = at.ns, "a frame came late");
+            }
+            self.send(Event::MissedFrames(missed), at);
+        }
+    }
+
+    fn pause(&mut self) {
+        self.pace.pause();
+        if let Some(meter) = &mut self.meter {
+            meter.pause();
+        }
+    }
+
+    /// A button of a game-pad went down.
+    pub fn pad(&mut self, press: gamepad::Press) {
+        if let Some(given) = gamepad::given(press.pad, self.session.screen()) {
+            let at = self.clock.at(press.at);
+            self.give(given, at);
         }
     }
 

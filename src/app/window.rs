@@ -44,11 +44,9 @@ pub fn run(
     size_points: [u32; 2],
     content: &Rc<RefCell<dyn Content>>,
 ) -> Result<(), AppError> {
-    let event_loop = EventLoop::<UserEvent>::with_user_event()
-        .build()
-        .map_err(|error| AppError::NoDisplay {
-            detail: error.to_string(),
-        })?;
+    let event_loop = event_loop().map_err(|error| AppError::NoDisplay {
+        detail: error.to_string(),
+    })?;
     tracing::debug!("event loop ready");
     let dropped = Arc::new(AtomicBool::new(false));
     let adapter_failure = Arc::new(Mutex::new(None));
@@ -82,6 +80,18 @@ pub fn run(
     Err(AppError::NoAdapter {
         detail: detail.unwrap_or_else(|| String::from("no Vulkan driver answered")),
     })
+}
+
+/// The event loop of the process; there can be one. Where the window system allows
+/// it, on any thread: tests run on threads of their own.
+fn event_loop() -> Result<EventLoop<UserEvent>, winit::error::EventLoopError> {
+    let mut builder = EventLoop::<UserEvent>::with_user_event();
+    #[cfg(all(unix, not(target_os = "macos")))]
+    {
+        use winit::platform::x11::EventLoopBuilderExtX11 as _;
+        builder.with_any_thread(true);
+    }
+    builder.build()
 }
 
 /// eframe's handle on the content.
@@ -197,7 +207,9 @@ fn native_options(
         centered: true,
         wgpu_options: WgpuConfiguration {
             surface: eframe::SurfaceConfig {
-                present_mode: wgpu::PresentMode::AutoVsync,
+                // Every adapter has it, and it never tears: what the automatic choice prefers
+                // where it can shows a late frame in the middle of a refresh.
+                present_mode: wgpu::PresentMode::Fifo,
                 desired_maximum_frame_latency: Some(1),
             },
             wgpu_setup: setup(Arc::clone(adapter_failure)),

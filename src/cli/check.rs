@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use clap::Args;
 
-use super::{Failure, Verbosity, render};
+use super::{Failure, Verbosity, check_display, render};
 use crate::render::technique::TECHNIQUES;
 use crate::render::{Gpu, Renderer, stability};
 use crate::stimulus::check::{
@@ -22,16 +22,26 @@ use crate::stimulus::{Folders, Manifest, StimulusError, StimulusSet};
 /// folders are compared in the same way.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example:\n  greyfield check stimuli/thesis-2010\n  greyfield check stimuli/thesis-2010 --set stimuli/thesis-2010.toml --diff differences\n  greyfield check --stability"
+    after_help = "Example:\n  greyfield check stimuli/thesis-2010\n  greyfield check stimuli/thesis-2010 --set stimuli/thesis-2010.toml --diff differences\n  greyfield check --stability\n  greyfield check --display --seconds 5"
 )]
 pub struct Check {
     /// The folder with the images and their manifest.
-    #[arg(required_unless_present = "stability")]
+    #[arg(required_unless_present_any = ["stability", "display"])]
     folder: Option<PathBuf>,
     /// Instead of a folder: draw every technique on frames at the edge of what can be drawn, and
     /// print the worst of each.
     #[arg(long, conflicts_with_all = ["folder", "set", "against", "diff"])]
     stability: bool,
+    /// Instead of a folder: cover the screen with grey, measure the display's refresh rate and
+    /// its jitter, and say whether a session could run on it.
+    #[arg(long, conflicts_with_all = ["folder", "stability", "set", "against", "diff"])]
+    display: bool,
+    /// With --display: measure this long at least.
+    #[arg(long, value_name = "N", default_value_t = 1.0, requires = "display")]
+    seconds: f64,
+    /// With --display: stay in a window.
+    #[arg(long, requires = "display")]
+    windowed: bool,
     /// The set the images are of: compare with it, and render it again here.
     #[arg(long, value_name = "SET.toml")]
     set: Option<PathBuf>,
@@ -59,6 +69,9 @@ pub struct Check {
 /// # Errors
 /// Exit code 1 if something is not as it should be, 2 for a folder or set that cannot be read.
 pub fn run(args: &Check, verbosity: Verbosity) -> Result<(), Failure> {
+    if args.display {
+        return check_display::run(args.seconds, args.windowed);
+    }
     let Some(folder) = &args.folder else {
         return stability(verbosity);
     };

@@ -6,6 +6,7 @@ mod bent_cones;
 mod bounces;
 mod browse;
 mod check;
+mod check_display;
 mod cost;
 mod demo;
 mod inter_reflection;

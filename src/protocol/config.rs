@@ -10,7 +10,7 @@ use super::locale::Texts;
 use super::options::{Breaks, Catch, ImageTime, MetadataField, Practice, Reference, Scale};
 use super::procedure::{Procedure, TrialStart};
 use super::text::StudyId;
-use super::{Key, Language, Words, checks};
+use super::{DisplayRequirements, Key, Language, Words, checks};
 use crate::config::quantity::{Milliseconds, SrgbLevel, quantity};
 use crate::config::{self, ConfigError};
 use crate::digest;
@@ -36,6 +36,9 @@ pub struct Protocol {
     pub planned_participants: Participants,
     /// The screen between the two images of a trial.
     pub grey: Grey,
+    /// What the display must be like; without this table, shortfalls are only told.
+    #[serde(default = "DisplayRequirements::unasked")]
+    pub display: DisplayRequirements,
     /// How long an image stands, where time ends it.
     #[serde(default)]
     pub image: Option<ImageTime>,

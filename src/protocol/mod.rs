@@ -7,6 +7,7 @@ pub mod balance;
 mod checks;
 pub mod config;
 pub mod design;
+pub mod display;
 pub mod exhibit;
 pub mod key;
 pub mod locale;
@@ -17,6 +18,7 @@ pub mod text;
 
 pub use balance::Balance;
 pub use config::Protocol;
+pub use display::DisplayRequirements;
 pub use exhibit::{Condition, Exhibit, Pair};
 pub use key::Key;
 pub use locale::{Language, Words};

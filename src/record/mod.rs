@@ -10,12 +10,14 @@
 //! RESULTS/dataset_description.json   Psych-DS: what every column means
 //! RESULTS/slots/                     who has which place in the design, and what became of it
 //! RESULTS/participants/              what participants agreed to and chose to tell of themselves
+//! RESULTS/displays/                  what the display of each session was found to be
 //! RESULTS/data/…_data.csv            one file a participant's session, one row a trial
 //! ```
 
 pub mod about;
 pub mod columns;
 pub mod description;
+pub mod display;
 pub mod error;
 mod files;
 pub mod identity;

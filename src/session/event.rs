@@ -27,10 +27,30 @@ pub enum Event {
     Continue,
     /// A frame with the current screen was handed to the display; the time is an
     /// estimate of when (the row records how it was obtained). The first one of a
-    /// screen is its onset, further ones are harmless. Where frames are reported
-    /// late, compare [`Session::screen_serial`](super::Session::screen_serial)
-    /// first: a frame of the screen before must not be reported for this one.
+    /// screen is its onset; further ones count how long it has stood, so send one
+    /// for every frame. Where frames are reported late, compare
+    /// [`Session::screen_serial`](super::Session::screen_serial) first: a frame of
+    /// the screen before must not be reported for this one.
     Shown,
+    /// A frame is about to be drawn and will be handed over at about `expected`:
+    /// where frames are counted, a timed screen ends with this event and no other,
+    /// so that the frame already shows the next one.
+    NextFrame {
+        /// When, on the clock of [`Event::Shown`]; later than the event itself.
+        expected: SessionTime,
+    },
+    /// The display system has told when the first frame of a screen reached the
+    /// display. It replaces the estimate, if the trial it belongs to is still on and
+    /// the time can be true: not to come, and between the onsets of the screens
+    /// before and after.
+    OnsetKnown {
+        /// The screen, as [`Session::screen_serial`](super::Session::screen_serial) counts.
+        screen_serial: u64,
+        /// When.
+        at: SessionTime,
+        /// How far that may lie from the light of the display, either way.
+        uncertainty_ns: u64,
+    },
     /// Time has passed (the view was woken, nothing else happened).
     Tick,
     /// The participant's answer.

@@ -136,6 +136,7 @@ impl Headless<'_> {
             onset_method: OnsetMethod::Virtual,
             onset_uncertainty_ms: Some(0.0),
             display: DisplayOnRecord::default(),
+            refresh_period_ns: None,
             input_device: InputDevice::Scripted,
             language: self.protocol.language,
         };

@@ -51,6 +51,10 @@ pub struct SessionInfo {
     pub onset_uncertainty_ms: Option<f64>,
     /// The display.
     pub display: DisplayOnRecord,
+    /// Time from refresh to refresh, where a frame handed over stands for one whole
+    /// refresh at least; timed screens then last a whole number of frames. `None`
+    /// where that is not known: then the clock ends them.
+    pub refresh_period_ns: Option<u64>,
     /// The device answers come from, until [`Event::UsedDevice`](super::Event::UsedDevice) says otherwise.
     pub input_device: InputDevice,
     /// Image hashes, one a condition of the plan, in its order.

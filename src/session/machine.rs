@@ -2,7 +2,7 @@
 
 use super::info::SessionInfo;
 use super::trial_log::TrialLog;
-use super::{Answer, Effect, Event, Screen, SessionTime, answers};
+use super::{Answer, Deadline, Effect, Event, Screen, SessionTime, answers};
 use crate::digest;
 use crate::protocol::options::Scale;
 use crate::protocol::procedure::{Ask, Step, TrialStart, Until};
@@ -17,7 +17,8 @@ use crate::record::{About, AboutAnswer};
 /// current screen are ignored, so a driver may send what it gets.
 ///
 /// The images, the grey and the questions take no input before their first
-/// [`Event::Shown`]: what the participant has not seen cannot be answered.
+/// [`Event::Shown`]: what the participant has not seen cannot be answered. For the
+/// same reason input received before that frame is ignored, whenever it is reported.
 #[derive(Debug, Clone)]
 pub struct Session {
     plan: SessionPlan,
@@ -28,8 +29,12 @@ pub struct Session {
     screen_serial: u64,
     /// When the current screen became the one to show.
     entered_at: SessionTime,
-    /// First frame of the current screen.
+    /// First frame of the current screen, as well as it is known by now.
     shown_at: Option<SessionTime>,
+    /// The same as it was first reported: what frames to come are compared with.
+    handed_over_at: Option<SessionTime>,
+    /// Frames reported with the current screen.
+    frames_shown: u64,
     /// Latest time seen: time never runs backwards.
     now: SessionTime,
     trial_log: TrialLog,
@@ -120,6 +125,8 @@ impl Session {
             screen_serial: 0,
             entered_at: SessionTime::default(),
             shown_at: None,
+            handed_over_at: None,
+            frames_shown: 0,
             now: SessionTime::default(),
             unsaved: None,
         }
@@ -143,10 +150,15 @@ impl Session {
         self.shown_at.is_some()
     }
 
-    /// When to send [`Event::Tick`] at the latest: the end of a timed screen.
-    /// `None` where nothing ends by itself.
+    /// When to send [`Event::Tick`] (where frames are counted,
+    /// [`Event::NextFrame`]) at the latest: the end of a timed screen. `None` where
+    /// nothing ends by itself.
     #[must_use]
     pub fn wake_at(&self) -> Option<SessionTime> {
+        self.deadline().map(|deadline| deadline.at())
+    }
+
+    fn deadline(&self) -> Option<Deadline> {
         let State::Step(step) = self.state else {
             return None;
         };
@@ -158,8 +170,20 @@ impl Session {
             } => duration_ns,
             _ => return None,
         };
-        self.shown_at.map(|onset| SessionTime {
-            ns: onset.ns.saturating_add(duration_ns),
+        self.handed_over_at.map(|onset| Deadline {
+            onset,
+            duration_ns,
+            period_ns: self.info.refresh_period_ns,
+        })
+    }
+
+    /// Whether this event ends the timed screen that stands.
+    fn is_end(&self, event: &Event) -> bool {
+        self.deadline().is_some_and(|deadline| match event {
+            Event::NextFrame { expected } if self.info.refresh_period_ns.is_some() => {
+                deadline.next_frame_is_after(self.frames_shown, *expected)
+            }
+            _ => deadline.has_passed(self.now),
         })
     }
 
@@ -206,12 +230,15 @@ impl Session {
     pub fn handle(&mut self, event: Event, at: SessionTime) -> Vec<Effect> {
         self.now = self.now.max(at);
         self.note(&event);
-        if self.wake_at().is_some_and(|deadline| self.now >= deadline) {
+        if self.is_end(&event) {
             self.next_step();
             // What was pressed or shown belongs to the screen that has just ended.
             if !matches!(event, Event::Abort) {
                 return Vec::new();
             }
+        }
+        if is_input(&event) && self.shown_at.is_some_and(|onset| at < onset) {
+            return Vec::new();
         }
         if self.is_over() {
             return Vec::new();
@@ -261,28 +288,53 @@ impl Session {
             Event::FocusGained => self.trial_log.focus_gained(),
             Event::MissedFrames(count) => self.trial_log.missed_frames(*count),
             Event::UsedDevice(device) => self.trial_log.input_device = *device,
+            Event::OnsetKnown {
+                screen_serial,
+                at,
+                uncertainty_ns,
+            } => self.onset_known(*screen_serial, *at, *uncertainty_ns),
             _ => {}
         }
     }
 
+    fn onset_known(&mut self, screen_serial: u64, at: SessionTime, uncertainty_ns: u64) {
+        let taken = at <= self.now
+            && self
+                .trial_log
+                .onset_known(screen_serial, at, uncertainty_ns);
+        if taken && screen_serial == self.screen_serial {
+            self.shown_at = Some(at);
+        }
+    }
+
     fn enter(&mut self, state: State, screen: Screen) {
+        // Where frames are not paced by the display, their number says nothing.
+        if matches!(self.screen, Screen::Grey { .. }) && self.info.refresh_period_ns.is_some() {
+            let frames = u32::try_from(self.frames_shown).unwrap_or(u32::MAX);
+            self.trial_log.grey_frames = Some(frames);
+        }
         self.state = state;
         self.screen = screen;
         self.screen_serial += 1;
         self.entered_at = self.now;
         self.shown_at = None;
+        self.handed_over_at = None;
+        self.frames_shown = 0;
     }
 
     /// A display may report a frame after later events: its own time counts, not
     /// the time of the report, but never one before the screen was asked for.
     fn shown(&mut self, at: SessionTime) {
+        self.frames_shown += 1;
         if self.shown_at.is_some() {
             return;
         }
         let onset = at.max(self.entered_at);
         self.shown_at = Some(onset);
+        self.handed_over_at = Some(onset);
         if let State::Step(step) = self.state {
-            self.trial_log.onset(self.rules.steps[step], onset);
+            self.trial_log
+                .onset(self.rules.steps[step], self.screen_serial, onset);
         }
     }
 
@@ -421,4 +473,12 @@ impl Session {
             self.enter(State::Instructions, Screen::Instructions);
         }
     }
+}
+
+/// Whether an event is something the participant did in answer to the screen.
+fn is_input(event: &Event) -> bool {
+    matches!(
+        event,
+        Event::Begin | Event::StartPair(_) | Event::Continue | Event::Answer(_)
+    )
 }

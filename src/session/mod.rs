@@ -4,7 +4,10 @@
 //! drive the same [`Session`](machine::Session).
 
 mod answers;
+pub mod deadline;
+pub mod display_gate;
 pub mod event;
+pub mod frames;
 pub mod headless;
 pub mod info;
 pub mod machine;
@@ -15,7 +18,10 @@ pub mod start;
 mod tests;
 mod trial_log;
 
+pub use deadline::Deadline;
+pub use display_gate::{DisplayFigures, Verdict};
 pub use event::{Answer, Effect, Event, SessionTime};
+pub use frames::{FrameFigures, FrameMeter};
 pub use info::{DisplayOnRecord, ImageHashes, SessionInfo};
 pub use machine::Session;
 pub use screen::Screen;

@@ -25,6 +25,9 @@ pub struct Setting {
     pub onset_uncertainty_ms: Option<f64>,
     /// The display as it was measured.
     pub display: DisplayOnRecord,
+    /// Time from refresh to refresh, where frames are known to keep to it
+    /// (see [`SessionInfo::refresh_period_ns`]).
+    pub refresh_period_ns: Option<u64>,
     /// The device answers come from at first.
     pub input_device: InputDevice,
     /// Language of the participant's screens.
@@ -168,6 +171,7 @@ pub fn start(
         onset_method: setting.onset_method,
         onset_uncertainty_ms: setting.onset_uncertainty_ms,
         display: setting.display,
+        refresh_period_ns: setting.refresh_period_ns,
         input_device: setting.input_device,
         // Whoever was asked in one language goes on in it.
         language: (enrolment.about.as_ref()).map_or(setting.language, |about| about.language),

@@ -6,7 +6,7 @@ use super::machine::Rules;
 use crate::protocol::procedure::{Ask, Step};
 use crate::protocol::{Phase, SessionPlan, Trial};
 use crate::record::TrialRow;
-use crate::record::row::{InputDevice, LIST_SEPARATOR, Outcome, SCHEMA_VERSION};
+use crate::record::row::{InputDevice, LIST_SEPARATOR, OnsetMethod, Outcome, SCHEMA_VERSION};
 use crate::record::study::iso_8601;
 
 /// When something was on the display.
@@ -16,6 +16,16 @@ struct Interval {
     offset: Option<SessionTime>,
 }
 
+/// A step that was on the display.
+#[derive(Debug, Clone, Copy)]
+struct Shown {
+    step: Step,
+    screen_serial: u64,
+    onset: SessionTime,
+    /// How well the display system knows the onset; absent while it is an estimate.
+    measured_uncertainty_ns: Option<u64>,
+}
+
 /// Onsets and mishaps of the running trial.
 #[derive(Debug, Clone)]
 pub(super) struct TrialLog {
@@ -23,8 +33,10 @@ pub(super) struct TrialLog {
     images: [Interval; 2],
     grey: Interval,
     question: Interval,
-    showing: Option<Step>,
+    /// Every step so far, in order.
+    shown: Vec<Shown>,
     missed_frames: Option<u32>,
+    pub grey_frames: Option<u32>,
     focus_lost: u32,
     unfocused: bool,
     pub input_device: InputDevice,
@@ -36,8 +48,9 @@ impl TrialLog {
             images: [Interval::default(); 2],
             grey: Interval::default(),
             question: Interval::default(),
-            showing: None,
+            shown: Vec::new(),
             missed_frames: None,
+            grey_frames: None,
             focus_lost: 0,
             unfocused: false,
             input_device,
@@ -67,16 +80,73 @@ impl TrialLog {
     }
 
     /// The first frame of a step, which is the first one without the step before it.
-    pub fn onset(&mut self, step: Step, at: SessionTime) {
-        if let Some(interval) = self.showing.replace(step).and_then(|it| self.interval(it)) {
-            interval.offset = Some(at);
+    pub fn onset(&mut self, step: Step, screen_serial: u64, at: SessionTime) {
+        self.shown.push(Shown {
+            step,
+            screen_serial,
+            onset: at,
+            measured_uncertainty_ns: None,
+        });
+        self.note_onset(self.shown.len() - 1);
+    }
+
+    /// Replaces the estimate of an onset by what the display system says. False,
+    /// and nothing changed, if the screen is not of this trial or the time cannot
+    /// be its own: not between the onsets of the steps round it.
+    pub fn onset_known(
+        &mut self,
+        screen_serial: u64,
+        at: SessionTime,
+        uncertainty_ns: u64,
+    ) -> bool {
+        let same = |shown: &Shown| shown.screen_serial == screen_serial;
+        let Some(index) = self.shown.iter().position(same) else {
+            return false;
+        };
+        let after_the_one_before = index == 0 || self.shown[index - 1].onset <= at;
+        let before_the_next = self
+            .shown
+            .get(index + 1)
+            .is_none_or(|next| at <= next.onset);
+        if !(after_the_one_before && before_the_next) {
+            return false;
+        }
+        self.shown[index].onset = at;
+        self.shown[index].measured_uncertainty_ns = Some(uncertainty_ns);
+        self.note_onset(index);
+        true
+    }
+
+    /// Puts the onset of a step where the row takes it from; it is the offset of
+    /// the step before.
+    fn note_onset(&mut self, index: usize) {
+        let Shown { step, onset, .. } = self.shown[index];
+        if let Some(before) = index.checked_sub(1) {
+            let before = self.shown[before].step;
+            if let Some(interval) = self.interval(before) {
+                interval.offset = Some(onset);
+            }
         }
         if let Some(interval) = self.interval(step) {
-            interval.onset = Some(at);
+            interval.onset = Some(onset);
         }
-        // Images that stand beside the question come and go with it.
+        // Images that stand beside the question come with it.
         if let Step::Ask(Ask::CloserToReference | Ask::Ranking) = step {
-            self.images.iter_mut().for_each(|it| it.onset = Some(at));
+            self.images.iter_mut().for_each(|it| it.onset = Some(onset));
+        }
+    }
+
+    /// How the onsets of the row were obtained, and how far they may be off: from
+    /// the display system only if it told every one.
+    fn onset_method(&self, info: &SessionInfo) -> (OnsetMethod, Option<f64>) {
+        let uncertainties: Option<Vec<u64>> = self
+            .shown
+            .iter()
+            .map(|shown| shown.measured_uncertainty_ns)
+            .collect();
+        match uncertainties.and_then(|all| all.into_iter().max()) {
+            Some(largest_ns) => (OnsetMethod::PresentFeedback, Some(largest_ns as f64 / 1e6)),
+            None => (info.onset_method, info.onset_uncertainty_ms),
         }
     }
 
@@ -103,6 +173,7 @@ impl TrialLog {
         let hashes = Hashes::of(info, trial);
         let [first, second] = self.images;
         let is_ranking = trial.places.len() > 2;
+        let (onset_method, onset_uncertainty_ms) = self.onset_method(info);
         TrialRow {
             row_id: row_id(info, trial),
             schema_version: SCHEMA_VERSION,
@@ -145,9 +216,9 @@ impl TrialLog {
             second_offset_ns: ns(second.offset),
             question_onset_ns: ns(self.question.onset),
             response_ns: Some(answered.ns),
-            grey_frames: None,
-            onset_method: info.onset_method,
-            onset_uncertainty_ms: info.onset_uncertainty_ms,
+            grey_frames: self.grey_frames,
+            onset_method,
+            onset_uncertainty_ms,
             missed_frames: self.missed_frames,
             refresh_period_ms: info.display.refresh_period_ms,
             refresh_jitter_sd_ms: info.display.refresh_jitter_sd_ms,

@@ -3,7 +3,7 @@
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use eframe::egui::{self, Key, Vec2};
 use egui_kittest::kittest::Queryable as _;
@@ -39,10 +39,15 @@ impl Desk {
     }
 
     pub fn of(study: Tiny) -> Self {
+        Self::on_display(study, None)
+    }
+
+    /// On a display that states its period.
+    pub fn on_display(study: Tiny, period: Option<Duration>) -> Self {
         let clock_ns = Rc::new(Cell::new(0));
         let rows: Rc<RefCell<Vec<TrialRow>>> = Rc::default();
         let disk_error: Rc<RefCell<Option<String>>> = Rc::default();
-        let sitting = sitting(&study, &clock_ns, &rows, &disk_error);
+        let sitting = sitting(&study, &clock_ns, &rows, &disk_error).with_refresh_period(period);
         let harness = Harness::builder()
             .with_size(WINDOW)
             .with_theme(egui::Theme::Light)
@@ -128,6 +133,7 @@ fn sitting(
         onset_method: OnsetMethod::PresentCall,
         onset_uncertainty_ms: None,
         display: DisplayOnRecord::default(),
+        refresh_period_ns: None,
         input_device: InputDevice::Keyboard,
         images: study
             .manifest

@@ -69,6 +69,12 @@ impl Tiny {
         Self { folder, manifest }
     }
 
+    /// Size of every image.
+    pub fn size_px(&self) -> [u32; 2] {
+        let image = &self.manifest.pairs[0].first;
+        [image.width_px, image.height_px]
+    }
+
     pub fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }

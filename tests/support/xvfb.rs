@@ -1,5 +1,7 @@
 //! A real X server without a monitor, its pixels, and keys typed into it.
 
+#![allow(dead_code)] // each test file uses its part
+
 use std::io::{BufRead, BufReader};
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
@@ -68,9 +70,9 @@ impl Xvfb {
         }
     }
 
-    /// The whole screen, from the server's own frame buffer (an X window dump,
-    /// 32 bits a pixel, blue first).
-    pub fn screen(&self) -> Pixels {
+    /// Part of the screen, from the server's own frame buffer (an X window dump, 32
+    /// bits a pixel, blue first).
+    pub fn pixels(&self, corner: [u32; 2], size_px: [u32; 2]) -> Pixels {
         let path: PathBuf = self.frame_buffer.path().join("Xvfb_screen0");
         let dump = std::fs::read(path).expect("the frame buffer");
         let word = |index: usize| {
@@ -79,17 +81,17 @@ impl Xvfb {
         };
         let (width, height, stride) = (word(4), word(5), word(12) as usize);
         assert_eq!(word(11), 32, "bits a pixel");
+        assert!(corner[0] + size_px[0] <= width && corner[1] + size_px[1] <= height);
         let start = word(0) as usize + 12 * word(19) as usize;
-        let mut rgb8 = Vec::with_capacity(3 * (width * height) as usize);
-        for row in dump[start..].chunks_exact(stride).take(height as usize) {
-            for pixel in row[..4 * width as usize].chunks_exact(4) {
-                rgb8.extend([pixel[2], pixel[1], pixel[0]]);
+        let mut rgb8 = Vec::with_capacity(3 * (size_px[0] * size_px[1]) as usize);
+        for y in corner[1]..corner[1] + size_px[1] {
+            let from = start + y as usize * stride + 4 * corner[0] as usize;
+            let row = &dump[from..from + 4 * size_px[0] as usize];
+            for pixel in row.chunks_exact(4) {
+                rgb8.extend_from_slice(&[pixel[2], pixel[1], pixel[0]]);
             }
         }
-        Pixels {
-            size_px: [width, height],
-            rgb8,
-        }
+        Pixels { size_px, rgb8 }
     }
 
     /// Runs xdotool; its output.

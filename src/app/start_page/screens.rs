@@ -45,11 +45,7 @@ pub fn show(ui: &mut Ui, facts: &Facts<'_>, screens: &mut Screens) {
                 .selected_text(chosen.name())
                 .show_ui(ui, |ui| {
                     for language in languages {
-                        ui.selectable_value(
-                            &mut screens.language,
-                            Some(language),
-                            language.name(),
-                        );
+                        ui.selectable_value(&mut screens.language, Some(language), language.name());
                     }
                 })
                 .response

@@ -1,5 +1,6 @@
 //! The session of every procedure: every path, every row, and random events on top.
 
+mod onsets;
 mod pages;
 mod procedures;
 mod random;
@@ -47,6 +48,7 @@ fn info(answered: usize) -> SessionInfo {
         onset_method: OnsetMethod::PresentCall,
         onset_uncertainty_ms: Some(16.7),
         display: DisplayOnRecord::default(),
+        refresh_period_ns: None,
         input_device: InputDevice::Keyboard,
         images: ["a", "b", "c"]
             .map(|id| ImageHashes {

@@ -1,34 +1,32 @@
 //! The application: the experimenter's start page, and from it one session after
 //! another.
 
+mod session_start;
+
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use eframe::egui::{Context, Ui, ViewportCommand};
-use time::OffsetDateTime;
 use winit::window::Window;
 
 use super::browser::{Browser, Folder};
 use super::clock::Clock;
 use super::display::DisplayFacts;
-use super::pictures::Pictures;
+use super::full_screen::FullScreen;
+use super::gamepad::Gamepads;
+use super::present_feedback::PresentFeedback;
+use super::readiness::Readiness;
 use super::sitting::Sitting;
 use super::start_page::{self, Enrolling, Facts, Next, OnRecord, Request};
 use super::stimuli_check::StimuliCheck;
-use super::stimulus_view::SizePx;
+use super::stimulus_view::{self, SizePx};
 use super::theme;
 use super::window::Content;
 use crate::protocol::Protocol;
-use crate::record::{Enrolment, InputDevice, OnsetMethod, ParticipantId, Study};
-use crate::session::DisplayOnRecord;
-use crate::session::start::{self, Setting};
+use crate::record::{ParticipantId, Study};
 use crate::stimulus::{Manifest, StimulusSet};
-
-/// How long the window system has to cover the screen. Nobody reads instructions
-/// faster, so no image is on screen yet.
-const FULL_SCREEN_PATIENCE: Duration = Duration::from_millis(700);
 
 /// A study, ready to run.
 #[derive(Debug)]
@@ -61,12 +59,25 @@ pub struct Application {
     stimuli: StimuliCheck,
     participants: Result<Vec<String>, String>,
     enrolling: Enrolling,
+    /// A session asked for, until the window covers the screen.
+    waiting: Option<Request>,
+    /// The check of its display, then.
+    readiness: Option<Box<Readiness>>,
     sitting: Option<Box<Sitting>>,
+    /// Whose session it is.
+    sitting_of: Option<ParticipantId>,
+    gamepads: Option<Gamepads>,
+    /// Images of the trial that shows most of them at once.
+    most_versions: usize,
     /// The stimulus browser, opened from the start page; never during a session.
     browser: Option<Box<Browser>>,
-    /// Since when the session should cover the screen; `None` once that is settled.
-    covering_since: Option<Instant>,
+    full_screen: FullScreen,
     first_frame_seen: bool,
+    /// What the display system tells about the window's frames.
+    feedback: Option<PresentFeedback>,
+    /// When the last pass began, until its frame is handed over; a hidden window
+    /// has no passes, and no frames.
+    begun: Option<Instant>,
     /// Frames handed to the display so far.
     frames: u64,
     make_clock: Box<dyn Fn() -> Clock>,
@@ -87,10 +98,17 @@ impl Application {
             stimuli: StimuliCheck::Waiting,
             participants: Ok(Vec::new()),
             enrolling: Enrolling::default(),
+            waiting: None,
+            readiness: None,
             sitting: None,
+            sitting_of: None,
+            gamepads: None,
+            most_versions: 0,
             browser: None,
-            covering_since: None,
+            full_screen: FullScreen::default(),
             first_frame_seen: false,
+            feedback: None,
+            begun: None,
             frames: 0,
             make_clock: Box::new(Clock::start),
         };
@@ -127,15 +145,17 @@ impl Application {
     /// Reads who has taken part; the folder changes only between sessions.
     fn count_participants(&mut self) {
         let setup = &self.setup;
-        self.participants = start::conditions(&setup.protocol, &setup.manifest)
-            .map_err(|error| error.to_string())
-            .and_then(|conditions| {
-                start_page::participants(&setup.study, &setup.protocol, &conditions)
-                    .map_err(|error| error.to_string())
-            });
+        let conditions = &setup.study.identity().conditions;
+        self.most_versions = (conditions.iter().map(|it| it.techniques.len()))
+            .max()
+            .unwrap_or(0);
+        self.participants = start_page::participants(&setup.study, &setup.protocol, conditions)
+            .map_err(|error| error.to_string());
     }
 
     fn start_page(&mut self, ui: &mut Ui) {
+        let display = DisplayFacts::read(ui.ctx(), self.window.as_deref());
+        let needed_px = self.needed_px(&display);
         let setup = &self.setup;
         let stimuli = &mut self.stimuli;
         if self.frames == 0 {
@@ -146,18 +166,17 @@ impl Application {
         }
         stimuli.poll();
         let image_px = image_px(&setup.manifest);
-        let display = DisplayFacts::read(ui.ctx(), self.window.as_deref());
         let facts = Facts {
             protocol: &self.protocol,
             protocol_path: &setup.protocol_path,
             results: setup.study.folder(),
             station: &setup.station,
             pilot: setup.pilot,
-            pairs: setup.manifest.pairs.len(),
+            trials: setup.study.identity().trials(),
             images: (setup.manifest.images().count(), image_px),
             stimuli,
             participants: &self.participants,
-            display_check: &display.check(image_px, setup.windowed),
+            display_check: &display.check(needed_px, setup.windowed),
             display: &display,
             on_record: &|id| match setup.study.answered(id) {
                 Ok(None) => OnRecord::New,
@@ -167,7 +186,7 @@ impl Application {
         };
         match start_page::show(ui, &facts, &mut self.enrolling) {
             Some(Next::Stimuli) => self.browse(ui.ctx()),
-            Some(Next::Session(request)) => self.begin(ui.ctx(), &request, &display),
+            Some(Next::Session(request)) => self.begin(ui.ctx(), request),
             None => {}
         }
     }
@@ -181,115 +200,28 @@ impl Application {
         ctx.request_repaint();
     }
 
-    /// Puts the session asked for on the screen, or says why not.
-    fn begin(&mut self, ctx: &Context, request: &Request, display: &DisplayFacts) {
-        match self.sit_down(request, display) {
-            Ok(sitting) => {
-                self.sitting = Some(Box::new(sitting));
-                self.enrolling = Enrolling::default();
-                if !self.setup.windowed {
-                    ctx.send_viewport_cmd(ViewportCommand::Fullscreen(true));
-                    self.covering_since = Some(Instant::now());
-                }
-            }
-            Err(message) => {
-                tracing::error!(message, "no session was started");
-                self.enrolling.failure = Some(message);
+    /// Hands on what the display system has told about earlier frames.
+    fn take_feedback(&mut self) {
+        let Some(feedback) = &mut self.feedback else {
+            return;
+        };
+        for frame in feedback.displayed() {
+            if let Some(sitting) = &mut self.sitting {
+                sitting.displayed(frame);
             }
         }
-        ctx.request_repaint();
     }
 
-    /// Makes the window as large as the monitor where asking for the full screen
-    /// was not enough: without a window manager nobody else does it.
-    fn cover_screen(&mut self, ctx: &Context) {
-        let Some(since) = self.covering_since else {
+    /// Hands on the buttons of game-pads; outside of a session they mean nothing.
+    fn take_gamepads(&mut self) {
+        let Some(gamepads) = &self.gamepads else {
             return;
         };
-        let found = DisplayFacts::read(ctx, self.window.as_deref());
-        let Some(monitor_px) = found.monitor_px else {
-            self.covering_since = None;
-            return;
-        };
-        if let Some(left) = FULL_SCREEN_PATIENCE.checked_sub(since.elapsed()) {
-            ctx.request_repaint_after(left);
-            return;
+        while let Some(press) = gamepads.next() {
+            if let Some(sitting) = &mut self.sitting {
+                sitting.pad(press);
+            }
         }
-        self.covering_since = None;
-        if found.window_px != monitor_px {
-            tracing::warn!(?found, "the full screen was refused; enlarging the window");
-            let points = monitor_px.map(|px| px as f32 / found.scale_factor);
-            ctx.send_viewport_cmd(ViewportCommand::InnerSize(points.into()));
-        }
-    }
-
-    fn sit_down(&self, request: &Request, display: &DisplayFacts) -> Result<Sitting, String> {
-        let setup = &self.setup;
-        let started_utc = OffsetDateTime::now_utc();
-        let mut enrolment = self
-            .enrol(request, started_utc)
-            .map_err(|error| error.to_string())?;
-        for warning in &enrolment.warnings {
-            tracing::warn!(warning, "damage in the data of this participant");
-        }
-        let setting = Setting {
-            started_utc,
-            onset_method: OnsetMethod::PresentCall,
-            // With one frame in flight and vertical sync, light follows the call
-            // within the refresh it waited for and the one that scans it out.
-            onset_uncertainty_ms: display.refresh_hz.map(|hz| 2000.0 / hz),
-            display: DisplayOnRecord::default(),
-            input_device: InputDevice::Keyboard,
-            language: setup.protocol.language,
-        };
-        let clock = (self.make_clock)();
-        let session = start::start(&setup.protocol, &setup.manifest, &enrolment, &setting)
-            .map_err(|error| error.to_string())?;
-        let exhibits =
-            start::exhibits(&setup.protocol, &setup.manifest).map_err(|error| error.to_string())?;
-        let folder = setup.stimuli.clone();
-        let pictures = Pictures::new(folder, &setup.manifest, &exhibits, session.plan());
-        Ok(Sitting::new(
-            session,
-            Rc::clone(&self.protocol),
-            clock,
-            Box::new(move |effect| start::perform(effect, &mut enrolment)),
-            pictures,
-            self.image_px(),
-        ))
-    }
-
-    fn enrol(
-        &self,
-        request: &Request,
-        now: OffsetDateTime,
-    ) -> Result<Enrolment, crate::record::RecordError> {
-        let (study, station) = (&self.setup.study, self.setup.station.as_str());
-        let enrol = |id: &ParticipantId| study.enrol(id, station, now);
-        match request {
-            Request::Begin(id) => enrol(id),
-            Request::Resume(id) => study.resume(id, station, now),
-        }
-    }
-
-    /// Back to the start page once the experimenter has left the last screen.
-    fn stand_up(&mut self, ctx: &Context) {
-        if !self
-            .sitting
-            .as_ref()
-            .is_some_and(|sitting| sitting.is_left())
-        {
-            return;
-        }
-        self.sitting = None;
-        self.covering_since = None;
-        self.count_participants();
-        // An image may have changed meanwhile.
-        self.stimuli = StimuliCheck::Waiting;
-        if !self.setup.windowed {
-            ctx.send_viewport_cmd(ViewportCommand::Fullscreen(false));
-        }
-        ctx.request_repaint();
     }
 
     /// A running session does not end because somebody hit the key that closes
@@ -316,12 +248,24 @@ fn image_px(manifest: &Manifest) -> SizePx {
 
 impl Content for Application {
     fn ui(&mut self, ui: &mut Ui) {
+        self.begun = Some(Instant::now());
         self.refuse_to_close(ui.ctx());
-        self.cover_screen(ui.ctx());
-        match (&mut self.sitting, &mut self.browser) {
-            (Some(sitting), _) => sitting.ui(ui),
-            (None, Some(browser)) => browser.ui(ui),
-            (None, None) => self.start_page(ui),
+        self.take_feedback();
+        self.full_screen.keep(ui.ctx(), self.window.as_deref());
+        self.check_display_when_settled(ui.ctx());
+        self.take_gamepads();
+        if let Some(sitting) = &mut self.sitting {
+            sitting.ui(ui);
+        } else if let Some(readiness) = &mut self.readiness {
+            if let Some(outcome) = readiness.ui(ui) {
+                self.after_check(ui.ctx(), outcome);
+            }
+        } else if self.waiting.is_some() {
+            stimulus_view::paint_grey(ui.ctx(), self.protocol.grey.level_srgb.get());
+        } else if let Some(browser) = &mut self.browser {
+            browser.ui(ui);
+        } else {
+            self.start_page(ui);
         }
         if self
             .browser
@@ -338,6 +282,8 @@ impl Content for Application {
         let elapsed = self.setup.started.elapsed();
         tracing::debug!(ms = elapsed.as_millis(), "window and adapter ready");
         theme::install(ctx);
+        self.feedback = window.as_deref().and_then(PresentFeedback::listen);
+        self.gamepads = window.as_ref().and_then(|_| Gamepads::listen(ctx));
         self.window = window;
     }
 
@@ -354,14 +300,25 @@ impl Content for Application {
             let elapsed = at.saturating_duration_since(self.setup.started);
             tracing::info!(ms = elapsed.as_millis(), "first frame");
         }
+        if let (Some(feedback), Some(begun)) = (&mut self.feedback, self.begun.take()) {
+            feedback.handed_over(begun, at);
+        }
         if let Some(sitting) = &mut self.sitting {
             sitting.presented(ctx, at);
+        } else if let Some(readiness) = &mut self.readiness {
+            let window = self.window.as_deref();
+            readiness.presented(ctx, window, self.feedback.as_mut(), at);
         }
+        self.take_feedback();
     }
 
     fn clear_level(&self) -> u8 {
-        self.sitting
-            .as_ref()
-            .map_or(theme::PAGE, |sitting| sitting.surround())
+        match &self.sitting {
+            Some(sitting) => sitting.surround(),
+            None if self.waiting.is_some() || self.readiness.is_some() => {
+                self.protocol.grey.level_srgb.get()
+            }
+            None => theme::PAGE,
+        }
     }
 }

@@ -1,0 +1,379 @@
+//! Is the display good enough for the session? A pure judgement of measured figures.
+
+use serde::{Deserialize, Serialize};
+
+use super::frames::FrameFigures;
+use crate::protocol::DisplayRequirements;
+use crate::protocol::display::Strictness;
+
+/// How far the stated rate may lie from the measured one and still be the same.
+const SAME_RATE: f64 = 0.01;
+
+/// What a display was found to be; kept with the data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DisplayFigures {
+    /// Frames a second, from the mean time between frames; absent if too few came.
+    pub mean_refresh_hz: Option<f64>,
+    /// Sample standard deviation of the time from frame to frame.
+    pub jitter_sd_ms: Option<f64>,
+    /// Longest time from frame to frame.
+    pub longest_ms: f64,
+    /// Frames these figures are of.
+    pub valid_frames: u64,
+    /// Refreshes that passed without a new frame.
+    pub missed: u64,
+    /// The rate the system states, hertz; some state none.
+    pub stated_refresh_hz: Option<f64>,
+    /// The rate of the refreshes the display system told the times of, hertz; few do.
+    pub told_refresh_hz: Option<f64>,
+    /// Physical pixels a point of the interface.
+    pub scale_factor: f64,
+    /// Size of the window's content, physical pixels.
+    pub window_px: [u32; 2],
+    /// Size of the monitor, physical pixels; unknown on some systems.
+    pub monitor_px: Option<[u32; 2]>,
+    /// Whether the window covers the monitor.
+    pub full_screen: bool,
+    /// Whether the window has the keyboard focus.
+    pub focused: bool,
+    /// What the times of the frames are.
+    pub method: FrameTimes,
+}
+
+/// Where the times of frames come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FrameTimes {
+    /// When the call that hands a frame over returned; the surface makes it wait for
+    /// the display.
+    PresentCall,
+    /// The same, but the surface does not wait: the frames keep to a timer, and
+    /// say nothing about the display.
+    Timer,
+    /// The display system's own times of our frames.
+    PresentFeedback,
+}
+
+impl DisplayFigures {
+    /// Takes over what a meter measured.
+    #[must_use]
+    pub fn with_frames(self, frames: &FrameFigures, method: FrameTimes) -> Self {
+        Self {
+            mean_refresh_hz: frames
+                .mean_period_ns
+                .filter(|&period_ns| period_ns > 0.0)
+                .map(|period_ns| 1e9 / period_ns),
+            jitter_sd_ms: frames.jitter_sd_ns.map(|sd_ns| sd_ns / 1e6),
+            longest_ms: frames.longest_ns as f64 / 1e6,
+            valid_frames: frames.valid_frames,
+            missed: frames.missed_frames,
+            method,
+            ..self
+        }
+    }
+
+    /// The time from refresh to refresh, nanoseconds: as the display system tells or
+    /// states it where that agrees with what was measured, because a mean of a
+    /// second's frames is not exact.
+    #[must_use]
+    pub fn period_ns(&self) -> Option<u64> {
+        let agrees = |rate: &f64| {
+            self.method == FrameTimes::Timer
+                || self
+                    .mean_refresh_hz
+                    .is_none_or(|measured| (rate / measured - 1.0).abs() <= SAME_RATE)
+        };
+        let hz = [self.told_refresh_hz, self.stated_refresh_hz]
+            .into_iter()
+            .flatten()
+            .find(agrees)
+            .or(self.mean_refresh_hz)?;
+        // Positive and far below the limit for every rate there is.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        (hz > 0.0).then(|| (1e9 / hz).round() as u64)
+    }
+
+    /// The same, where a frame that is handed over stands for one refresh at least:
+    /// then timed screens can be counted in frames
+    /// (see [`SessionInfo::refresh_period_ns`](super::SessionInfo::refresh_period_ns)).
+    #[must_use]
+    pub fn counted_period_ns(&self) -> Option<u64> {
+        match self.method {
+            FrameTimes::PresentCall | FrameTimes::PresentFeedback => self.period_ns(),
+            FrameTimes::Timer => None,
+        }
+    }
+}
+
+/// Something about a display that is not as the protocol asks.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Shortfall {
+    /// The measurement is too short to say anything.
+    #[error(
+        "only {found} frames were measured, {needed} are needed: is the window hidden, or the display asleep?"
+    )]
+    TooFewFrames {
+        /// Frames measured.
+        found: u64,
+        /// Frames asked.
+        needed: u32,
+    },
+    /// The frames do not come regularly.
+    #[error(
+        "the time from frame to frame varies by {found_ms:.2} ms (standard deviation), allowed is {allowed_ms:.2} ms: close other programs, switch power saving and adaptive refresh rates off, or raise display.maximum_jitter_ms"
+    )]
+    Jitter {
+        /// Standard deviation measured.
+        found_ms: f64,
+        /// Largest allowed.
+        allowed_ms: f64,
+    },
+    /// The display refreshes too slowly or too fast.
+    #[error(
+        "the display shows {found_hz:.2} frames a second, allowed is {low_hz} to {high_hz}: set its refresh rate in the system's settings"
+    )]
+    RefreshRate {
+        /// Mean rate measured.
+        found_hz: f64,
+        /// Lowest allowed.
+        low_hz: f64,
+        /// Highest allowed.
+        high_hz: f64,
+    },
+    /// Something besides the window is on the screen.
+    #[error(
+        "the window does not cover the screen: it has {}×{} pixels{}. Let it go full screen",
+        window_px[0], window_px[1],
+        monitor_px.map(|[x, y]| format!(", the monitor {x}×{y}")).unwrap_or_default()
+    )]
+    NotFullScreen {
+        /// Size of the window.
+        window_px: [u32; 2],
+        /// Size of the monitor, where known.
+        monitor_px: Option<[u32; 2]>,
+    },
+    /// Keys would go elsewhere.
+    #[error(
+        "the window does not have the keyboard focus: click into it, and close what takes it away"
+    )]
+    NoFocus,
+}
+
+/// What follows from a display's figures.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Verdict {
+    /// All as asked.
+    Good,
+    /// Not as asked; the experimenter decides.
+    Warned(Vec<Shortfall>),
+    /// Not as asked; no session.
+    Refused(Vec<Shortfall>),
+}
+
+impl Verdict {
+    /// What is not as asked.
+    #[must_use]
+    pub fn shortfalls(&self) -> &[Shortfall] {
+        match self {
+            Self::Good => &[],
+            Self::Warned(shortfalls) | Self::Refused(shortfalls) => shortfalls,
+        }
+    }
+
+    /// Whether a session may not begin.
+    #[must_use]
+    pub fn is_refused(&self) -> bool {
+        matches!(self, Self::Refused(_))
+    }
+}
+
+/// Compares a display with what a protocol asks.
+#[must_use]
+pub fn judge(figures: &DisplayFigures, asked: &DisplayRequirements) -> Verdict {
+    let shortfalls = shortfalls(figures, asked);
+    match asked.verdict {
+        _ if shortfalls.is_empty() => Verdict::Good,
+        Strictness::Refuse => Verdict::Refused(shortfalls),
+        Strictness::Warn => Verdict::Warned(shortfalls),
+    }
+}
+
+fn shortfalls(figures: &DisplayFigures, asked: &DisplayRequirements) -> Vec<Shortfall> {
+    let mut found = Vec::new();
+    let needed = asked.minimum_frames.get();
+    if figures.valid_frames < u64::from(needed) {
+        found.push(Shortfall::TooFewFrames {
+            found: figures.valid_frames,
+            needed,
+        });
+    }
+    let allowed_ms = f64::from(asked.maximum_jitter.get());
+    if let Some(found_ms) = figures.jitter_sd_ms.filter(|&sd_ms| sd_ms > allowed_ms) {
+        found.push(Shortfall::Jitter {
+            found_ms,
+            allowed_ms,
+        });
+    }
+    if let (Some(range), Some(found_hz)) = (asked.refresh_hz, figures.mean_refresh_hz) {
+        let (low_hz, high_hz) = (range.low_hz(), range.high_hz());
+        if !(low_hz..=high_hz).contains(&found_hz) {
+            found.push(Shortfall::RefreshRate {
+                found_hz,
+                low_hz,
+                high_hz,
+            });
+        }
+    }
+    if asked.full_screen && !figures.full_screen {
+        found.push(Shortfall::NotFullScreen {
+            window_px: figures.window_px,
+            monitor_px: figures.monitor_px,
+        });
+    }
+    if asked.focus && !figures.focused {
+        found.push(Shortfall::NoFocus);
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config;
+    use std::path::Path;
+
+    fn good() -> DisplayFigures {
+        DisplayFigures {
+            mean_refresh_hz: Some(59.95),
+            jitter_sd_ms: Some(0.3),
+            longest_ms: 17.5,
+            valid_frames: 60,
+            missed: 0,
+            stated_refresh_hz: Some(59.94),
+            told_refresh_hz: None,
+            scale_factor: 1.0,
+            window_px: [1920, 1080],
+            monitor_px: Some([1920, 1080]),
+            full_screen: true,
+            focused: true,
+            method: FrameTimes::PresentCall,
+        }
+    }
+
+    fn asked(text: &str) -> DisplayRequirements {
+        config::parse(Path::new("p.toml"), text).unwrap()
+    }
+
+    #[test]
+    fn a_good_display_passes() {
+        assert_eq!(judge(&good(), &asked("")), Verdict::Good);
+        assert_eq!(
+            judge(&good(), &asked("refresh_hz = [59, 61]")),
+            Verdict::Good
+        );
+    }
+
+    /// Each figure alone can fail, with its number and the limit in the message.
+    #[test]
+    fn each_shortfall_is_refused_by_its_own_name() {
+        let cases: [(DisplayFigures, &str, [&str; 3]); 5] = [
+            (
+                DisplayFigures {
+                    valid_frames: 49,
+                    ..good()
+                },
+                "",
+                ["49 frames", "50 are needed", "hidden"],
+            ),
+            (
+                DisplayFigures {
+                    jitter_sd_ms: Some(2.01),
+                    ..good()
+                },
+                "",
+                ["2.01 ms", "allowed is 2.00 ms", "power saving"],
+            ),
+            (
+                DisplayFigures {
+                    mean_refresh_hz: Some(75.0),
+                    ..good()
+                },
+                "refresh_hz = [59, 61]",
+                ["75.00", "59 to 61", "settings"],
+            ),
+            (
+                DisplayFigures {
+                    full_screen: false,
+                    window_px: [800, 600],
+                    ..good()
+                },
+                "",
+                ["800×600", "1920×1080", "full screen"],
+            ),
+            (
+                DisplayFigures {
+                    focused: false,
+                    ..good()
+                },
+                "",
+                ["focus", "click", "window"],
+            ),
+        ];
+        for (figures, text, parts) in cases {
+            let verdict = judge(&figures, &asked(text));
+            assert!(verdict.is_refused());
+            let [one] = verdict.shortfalls() else {
+                panic!("{verdict:?}");
+            };
+            let message = one.to_string();
+            for part in parts {
+                assert!(message.contains(part), "{part:?} not in {message:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_protocol_may_be_content_to_warn_or_not_to_ask() {
+        let bad = DisplayFigures {
+            full_screen: false,
+            focused: false,
+            ..good()
+        };
+        let warned = judge(&bad, &asked("verdict = \"warn\""));
+        assert_eq!(warned.shortfalls().len(), 2);
+        assert!(!warned.is_refused());
+        assert_eq!(
+            judge(&bad, &asked("full_screen = false\nfocus = false")),
+            Verdict::Good
+        );
+    }
+
+    #[test]
+    fn the_stated_period_counts_where_it_agrees_with_the_measured() {
+        let period = |figures: DisplayFigures| figures.period_ns();
+        assert_eq!(period(good()), Some(16_683_350));
+        let unstated = DisplayFigures {
+            stated_refresh_hz: None,
+            ..good()
+        };
+        assert_eq!(period(unstated), Some(16_680_567));
+        let wrong = DisplayFigures {
+            stated_refresh_hz: Some(144.0),
+            ..good()
+        };
+        assert_eq!(period(wrong.clone()), Some(16_680_567));
+        let told = DisplayFigures {
+            told_refresh_hz: Some(59.951),
+            ..good()
+        };
+        assert_eq!(period(told), Some(16_680_289));
+        // A timer measures itself.
+        let timed = DisplayFigures {
+            method: FrameTimes::Timer,
+            ..wrong
+        };
+        assert_eq!(period(timed.clone()), Some(6_944_444));
+        assert_eq!(timed.counted_period_ns(), None);
+        assert_eq!(good().counted_period_ns(), Some(16_683_350));
+    }
+}
