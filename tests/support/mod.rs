@@ -24,6 +24,14 @@ duration_ms = 2000
 level_srgb = 128
 area = "screen"
 
+# Whatever display the tests have, it will do.
+[display]
+minimum_frames = 10
+maximum_jitter_ms = 1000
+full_screen = false
+focus = false
+verdict = "warn"
+
 [texts]
 title = "Welcome"
 instructions = """
