@@ -9,6 +9,9 @@ use crate::protocol::display::Strictness;
 /// How far the stated rate may lie from the measured one and still be the same.
 const SAME_RATE: f64 = 0.01;
 
+/// Standard deviation of a steady run, as a share of its period.
+const STEADY: f64 = 0.05;
+
 /// What a display was found to be; kept with the data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DisplayFigures {
@@ -50,8 +53,6 @@ pub enum FrameTimes {
     /// The same, but the surface does not wait: the frames keep to a timer, and
     /// say nothing about the display.
     Timer,
-    /// The display system's own times of our frames.
-    PresentFeedback,
 }
 
 impl DisplayFigures {
@@ -72,37 +73,55 @@ impl DisplayFigures {
         }
     }
 
-    /// The time from refresh to refresh, nanoseconds: as the display system tells or
+    /// The time from refresh to refresh, nanoseconds. As the display system tells or
     /// states it where that agrees with what was measured, because a mean of a
-    /// second's frames is not exact.
+    /// second's frames is not exact; as measured where the frames were steady; else
+    /// they were late, and what the system says is all there is.
     #[must_use]
     pub fn period_ns(&self) -> Option<u64> {
-        let agrees = |rate: &f64| {
-            self.method == FrameTimes::Timer
-                || self
-                    .mean_refresh_hz
-                    .is_none_or(|measured| (rate / measured - 1.0).abs() <= SAME_RATE)
-        };
-        let hz = [self.told_refresh_hz, self.stated_refresh_hz]
-            .into_iter()
-            .flatten()
-            .find(agrees)
-            .or(self.mean_refresh_hz)?;
-        // Positive and far below the limit for every rate there is.
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        (hz > 0.0).then(|| (1e9 / hz).round() as u64)
+        let said = self.told_refresh_hz.or(self.stated_refresh_hz);
+        let measured = self.mean_refresh_hz.filter(|_| self.is_steady());
+        self.agreed_hz()
+            .or(measured)
+            .or(said)
+            .or(self.mean_refresh_hz)
+            .and_then(period_ns)
     }
 
     /// The same, where a frame that is handed over stands for one refresh at least:
     /// then timed screens can be counted in frames
     /// (see [`SessionInfo::refresh_period_ns`](super::SessionInfo::refresh_period_ns)).
+    /// A surface that keeps exactly the rate that the system says does so.
     #[must_use]
     pub fn counted_period_ns(&self) -> Option<u64> {
         match self.method {
-            FrameTimes::PresentCall | FrameTimes::PresentFeedback => self.period_ns(),
+            FrameTimes::PresentCall => self.agreed_hz().and_then(period_ns),
             FrameTimes::Timer => None,
         }
     }
+
+    /// The rate the system says, if frames came at it.
+    fn agreed_hz(&self) -> Option<f64> {
+        let measured = self.mean_refresh_hz?;
+        [self.told_refresh_hz, self.stated_refresh_hz]
+            .into_iter()
+            .flatten()
+            .find(|said| (said / measured - 1.0).abs() <= SAME_RATE)
+    }
+
+    /// Whether every frame came when the one before said it would.
+    fn is_steady(&self) -> bool {
+        let jitter = self.jitter_sd_ms.zip(self.mean_refresh_hz);
+        self.method == FrameTimes::PresentCall
+            && self.missed == 0
+            && jitter.is_some_and(|(sd_ms, hz)| sd_ms / 1000.0 * hz < STEADY)
+    }
+}
+
+fn period_ns(hz: f64) -> Option<u64> {
+    // Positive and far below the limit for every rate there is.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    (hz > 0.0).then(|| (1e9 / hz).round() as u64)
 }
 
 /// Something about a display that is not as the protocol asks.
@@ -348,32 +367,49 @@ mod tests {
         );
     }
 
+    fn with(mean_hz: f64, stated_hz: Option<f64>, told_hz: Option<f64>) -> DisplayFigures {
+        DisplayFigures {
+            mean_refresh_hz: Some(mean_hz),
+            stated_refresh_hz: stated_hz,
+            told_refresh_hz: told_hz,
+            ..good()
+        }
+    }
+
     #[test]
-    fn the_stated_period_counts_where_it_agrees_with_the_measured() {
-        let period = |figures: DisplayFigures| figures.period_ns();
-        assert_eq!(period(good()), Some(16_683_350));
-        let unstated = DisplayFigures {
-            stated_refresh_hz: None,
-            ..good()
+    fn what_the_system_says_is_the_period_where_frames_agree_with_it() {
+        for figures in [
+            with(59.95, Some(59.94), None),
+            with(59.7, Some(59.94), None),
+            with(59.95, Some(144.0), Some(59.94)),
+            with(59.95, Some(60.0), Some(59.94)),
+        ] {
+            assert_eq!(figures.period_ns(), Some(16_683_350), "{figures:?}");
+            assert_eq!(figures.counted_period_ns(), Some(16_683_350));
+        }
+    }
+
+    #[test]
+    fn frames_are_not_counted_where_they_do_not_keep_the_displays_rate() {
+        // Steady at another rate than the system states, or nothing stated: as measured.
+        for figures in [with(75.0, Some(60.0), None), with(75.0, None, None)] {
+            assert_eq!(figures.period_ns(), Some(13_333_333));
+            assert_eq!(figures.counted_period_ns(), None);
+        }
+        // Late frames, on a machine too slow for its display: as told.
+        let slow = DisplayFigures {
+            missed: 35,
+            jitter_sd_ms: Some(5.0),
+            ..with(35.7, None, Some(60.0))
         };
-        assert_eq!(period(unstated), Some(16_680_567));
-        let wrong = DisplayFigures {
-            stated_refresh_hz: Some(144.0),
-            ..good()
-        };
-        assert_eq!(period(wrong.clone()), Some(16_680_567));
-        let told = DisplayFigures {
-            told_refresh_hz: Some(59.951),
-            ..good()
-        };
-        assert_eq!(period(told), Some(16_680_289));
+        assert_eq!(slow.period_ns(), Some(16_666_667));
+        assert_eq!(slow.counted_period_ns(), None);
         // A timer measures itself.
         let timed = DisplayFigures {
             method: FrameTimes::Timer,
-            ..wrong
+            ..with(60.0, Some(60.0), None)
         };
-        assert_eq!(period(timed.clone()), Some(6_944_444));
+        assert_eq!(timed.period_ns(), Some(16_666_667));
         assert_eq!(timed.counted_period_ns(), None);
-        assert_eq!(good().counted_period_ns(), Some(16_683_350));
     }
 }
