@@ -88,6 +88,7 @@ pub fn run(
 /// The event loop of the process; there can be one. Where the window system allows
 /// it, on any thread: tests run on threads of their own.
 fn event_loop() -> Result<EventLoop<UserEvent>, winit::error::EventLoopError> {
+    #[cfg_attr(any(windows, target_os = "macos"), allow(unused_mut))]
     let mut builder = EventLoop::<UserEvent>::with_user_event();
     #[cfg(all(unix, not(target_os = "macos")))]
     {
