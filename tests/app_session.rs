@@ -12,7 +12,7 @@ use desk::{Desk, SECOND_NS, SIZE_PX, WINDOW, assert_picture};
 use eframe::egui::{self, Key, Modifiers, Vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use greyfield::protocol::Position;
-use greyfield::record::InputDevice;
+use greyfield::record::{InputDevice, OnsetMethod};
 use greyfield::session::Screen;
 use support::Tiny;
 
@@ -212,8 +212,8 @@ fn frames_missed(late: &[u32]) -> Option<u32> {
     // A page of text: nothing is drawn meanwhile, and nothing is missed.
     desk.pass_time(20 * SECOND_NS);
     desk.press(Key::Num1);
-    let missed = desk.rows.borrow()[0].missed_frames;
-    missed
+    let rows = desk.rows.take();
+    rows[0].missed_frames
 }
 
 #[test]
@@ -226,6 +226,27 @@ fn every_late_frame_of_a_trial_is_on_record_and_no_other() {
     assert_eq!(frames_missed(&[5, 30, 31, 160]), Some(4));
     // On the page after: no frame is due.
     assert_eq!(frames_missed(&[175]), Some(0));
+}
+
+#[test]
+fn onsets_that_the_display_system_tells_are_on_record_as_such() {
+    let mut desk = Desk::new(2);
+    desk.click("Begin");
+    desk.told_after_ns = Some(1_000_000);
+    desk.look_at_pair(1);
+    desk.press(Key::Num1);
+    desk.told_after_ns = None;
+    desk.look_at_pair(2);
+    desk.press(Key::Num1);
+    let rows = desk.rows.borrow();
+    let methods: Vec<OnsetMethod> = rows.iter().map(|row| row.onset_method).collect();
+    assert_eq!(
+        methods,
+        [OnsetMethod::PresentFeedback, OnsetMethod::PresentCall]
+    );
+    let told_ms = rows[0].onset_uncertainty_ms.expect("a refresh");
+    assert!((told_ms - 16.67).abs() < 0.01, "{told_ms}");
+    assert!(rows[0].first_onset_ns < rows[0].grey_onset_ns);
 }
 
 #[test]

@@ -50,10 +50,15 @@ fn the_display_is_measured_over_the_whole_screen() {
     assert!((1.0..63.0).contains(&hz("mean refresh rate")), "{table}");
     // The server's own clock does not depend on ours.
     assert!((hz("told refresh rate") - 60.0).abs() < 3.0, "{table}");
-    // Nobody gives a window the focus here, and that is told, with exit code 1.
-    assert_eq!(output.status.code(), Some(1), "{message}");
-    assert!(message.contains("refused"), "{message}");
-    assert!(message.contains("focus"), "{message}");
+    // How regular the frames are depends on what else runs; the verdict follows it.
+    let jitter = value(&table, "jitter (SD)").strip_suffix(" ms");
+    let jitter_ms: f64 = jitter.expect("in ms").parse().expect("a number");
+    let focused = value(&table, "keyboard focus") == "yes";
+    let good = jitter_ms <= 2.0 && focused;
+    assert_eq!(output.status.code(), Some(i32::from(!good)), "{message}");
+    assert_eq!(table.contains("Good enough"), good, "{table}");
+    assert_eq!(message.contains("refused"), !good, "{message}");
+    assert_eq!(message.contains("varies by"), jitter_ms > 2.0, "{message}");
 }
 
 #[test]

@@ -6,7 +6,7 @@
 //! drew and presented a frame returned. The second is an estimate of the onset,
 //! not the onset: no portable interface says when the display showed a frame.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
@@ -52,15 +52,17 @@ pub fn run(
     let adapter_failure = Arc::new(Mutex::new(None));
     let options = native_options(title, size_points, &dropped, &adapter_failure);
     let context: Rc<RefCell<Option<egui::Context>>> = Rc::default();
+    let closed = Rc::new(Cell::new(false));
 
     let creator = {
         let (content, context) = (Rc::clone(content), Rc::clone(&context));
+        let closed = Rc::clone(&closed);
         Box::new(move |creation: &eframe::CreationContext<'_>| {
             *context.borrow_mut() = Some(creation.egui_ctx.clone());
             content
                 .borrow_mut()
                 .opened(&creation.egui_ctx, creation.winit_window().cloned());
-            Ok(Box::new(Face(content)) as Box<dyn eframe::App>)
+            Ok(Box::new(Face { content, closed }) as Box<dyn eframe::App>)
         })
     };
     let mut watch = Watch {
@@ -68,6 +70,7 @@ pub fn run(
         content: Rc::clone(content),
         context: Rc::clone(&context),
         dropped,
+        closed,
     };
     event_loop.run_app(&mut watch)?;
 
@@ -85,6 +88,7 @@ pub fn run(
 /// The event loop of the process; there can be one. Where the window system allows
 /// it, on any thread: tests run on threads of their own.
 fn event_loop() -> Result<EventLoop<UserEvent>, winit::error::EventLoopError> {
+    #[cfg_attr(any(windows, target_os = "macos"), allow(unused_mut))]
     let mut builder = EventLoop::<UserEvent>::with_user_event();
     #[cfg(all(unix, not(target_os = "macos")))]
     {
@@ -95,16 +99,24 @@ fn event_loop() -> Result<EventLoop<UserEvent>, winit::error::EventLoopError> {
 }
 
 /// eframe's handle on the content.
-struct Face(Rc<RefCell<dyn Content>>);
+struct Face {
+    content: Rc<RefCell<dyn Content>>,
+    /// Set when eframe has let go of the window.
+    closed: Rc<Cell<bool>>,
+}
 
 impl eframe::App for Face {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
-        self.0.borrow_mut().ui(ui);
+        self.content.borrow_mut().ui(ui);
     }
 
     fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {
-        let level = f32::from(self.0.borrow().clear_level()) / 255.0;
+        let level = f32::from(self.content.borrow().clear_level()) / 255.0;
         [level, level, level, 1.0]
+    }
+
+    fn on_exit(&mut self) {
+        self.closed.set(true);
     }
 }
 
@@ -115,6 +127,7 @@ struct Watch<'a> {
     context: Rc<RefCell<Option<egui::Context>>>,
     /// Set by the surface when a frame could not be presented.
     dropped: Arc<AtomicBool>,
+    closed: Rc<Cell<bool>>,
 }
 
 impl ApplicationHandler<UserEvent> for Watch<'_> {
@@ -124,7 +137,7 @@ impl ApplicationHandler<UserEvent> for Watch<'_> {
         }
         let redraw = matches!(event, WindowEvent::RedrawRequested);
         self.eframe.window_event(event_loop, id, event);
-        if !redraw {
+        if !redraw || self.closed.get() {
             return;
         }
         let at = Instant::now();
@@ -160,6 +173,10 @@ impl ApplicationHandler<UserEvent> for Watch<'_> {
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         self.eframe.about_to_wait(event_loop);
+        // eframe waits for the window to be destroyed, but the content may hold on to it.
+        if self.closed.get() {
+            event_loop.exit();
+        }
     }
 
     fn suspended(&mut self, event_loop: &ActiveEventLoop) {

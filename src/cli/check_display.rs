@@ -58,7 +58,6 @@ fn table(figures: &DisplayFigures) -> String {
     let times = match figures.method {
         FrameTimes::PresentCall => "when the call that hands them over returned",
         FrameTimes::Timer => "a timer: the surface does not wait for the display",
-        FrameTimes::PresentFeedback => "told by the display system",
     };
     let lines = [
         ("mean refresh rate", number(figures.mean_refresh_hz, "Hz")),

@@ -9,6 +9,9 @@ use crate::protocol::display::Strictness;
 /// How far the stated rate may lie from the measured one and still be the same.
 const SAME_RATE: f64 = 0.01;
 
+/// Standard deviation of a steady run, as a share of its period.
+const STEADY: f64 = 0.05;
+
 /// What a display was found to be; kept with the data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DisplayFigures {
@@ -50,8 +53,6 @@ pub enum FrameTimes {
     /// The same, but the surface does not wait: the frames keep to a timer, and
     /// say nothing about the display.
     Timer,
-    /// The display system's own times of our frames.
-    PresentFeedback,
 }
 
 impl DisplayFigures {
@@ -72,37 +73,55 @@ impl DisplayFigures {
         }
     }
 
-    /// The time from refresh to refresh, nanoseconds: as the display system tells or
+    /// The time from refresh to refresh, nanoseconds. As the display system tells or
     /// states it where that agrees with what was measured, because a mean of a
-    /// second's frames is not exact.
+    /// second's frames is not exact; as measured where the frames were steady; else
+    /// they were late, and what the system says is all there is.
     #[must_use]
     pub fn period_ns(&self) -> Option<u64> {
-        let agrees = |rate: &f64| {
-            self.method == FrameTimes::Timer
-                || self
-                    .mean_refresh_hz
-                    .is_none_or(|measured| (rate / measured - 1.0).abs() <= SAME_RATE)
-        };
-        let hz = [self.told_refresh_hz, self.stated_refresh_hz]
-            .into_iter()
-            .flatten()
-            .find(agrees)
-            .or(self.mean_refresh_hz)?;
-        // Positive and far below the limit for every rate there is.
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        (hz > 0.0).then(|| (1e9 / hz).round() as u64)
+        let said = self.told_refresh_hz.or(self.stated_refresh_hz);
+        let measured = self.mean_refresh_hz.filter(|_| self.is_steady());
+        self.agreed_hz()
+            .or(measured)
+            .or(said)
+            .or(self.mean_refresh_hz)
+            .and_then(period_ns)
     }
 
     /// The same, where a frame that is handed over stands for one refresh at least:
     /// then timed screens can be counted in frames
     /// (see [`SessionInfo::refresh_period_ns`](super::SessionInfo::refresh_period_ns)).
+    /// A surface that keeps exactly the rate that the system says does so.
     #[must_use]
     pub fn counted_period_ns(&self) -> Option<u64> {
         match self.method {
-            FrameTimes::PresentCall | FrameTimes::PresentFeedback => self.period_ns(),
+            FrameTimes::PresentCall => self.agreed_hz().and_then(period_ns),
             FrameTimes::Timer => None,
         }
     }
+
+    /// The rate the system says, if frames came at it.
+    fn agreed_hz(&self) -> Option<f64> {
+        let measured = self.mean_refresh_hz?;
+        [self.told_refresh_hz, self.stated_refresh_hz]
+            .into_iter()
+            .flatten()
+            .find(|said| (said / measured - 1.0).abs() <= SAME_RATE)
+    }
+
+    /// Whether every frame came when the one before said it would.
+    fn is_steady(&self) -> bool {
+        let jitter = self.jitter_sd_ms.zip(self.mean_refresh_hz);
+        self.method == FrameTimes::PresentCall
+            && self.missed == 0
+            && jitter.is_some_and(|(sd_ms, hz)| sd_ms / 1000.0 * hz < STEADY)
+    }
+}
+
+fn period_ns(hz: f64) -> Option<u64> {
+    // Positive and far below the limit for every rate there is.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    (hz > 0.0).then(|| (1e9 / hz).round() as u64)
 }
 
 /// Something about a display that is not as the protocol asks.
@@ -237,143 +256,4 @@ fn shortfalls(figures: &DisplayFigures, asked: &DisplayRequirements) -> Vec<Shor
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::config;
-    use std::path::Path;
-
-    fn good() -> DisplayFigures {
-        DisplayFigures {
-            mean_refresh_hz: Some(59.95),
-            jitter_sd_ms: Some(0.3),
-            longest_ms: 17.5,
-            valid_frames: 60,
-            missed: 0,
-            stated_refresh_hz: Some(59.94),
-            told_refresh_hz: None,
-            scale_factor: 1.0,
-            window_px: [1920, 1080],
-            monitor_px: Some([1920, 1080]),
-            full_screen: true,
-            focused: true,
-            method: FrameTimes::PresentCall,
-        }
-    }
-
-    fn asked(text: &str) -> DisplayRequirements {
-        config::parse(Path::new("p.toml"), text).unwrap()
-    }
-
-    #[test]
-    fn a_good_display_passes() {
-        assert_eq!(judge(&good(), &asked("")), Verdict::Good);
-        assert_eq!(
-            judge(&good(), &asked("refresh_hz = [59, 61]")),
-            Verdict::Good
-        );
-    }
-
-    /// Each figure alone can fail, with its number and the limit in the message.
-    #[test]
-    fn each_shortfall_is_refused_by_its_own_name() {
-        let cases: [(DisplayFigures, &str, [&str; 3]); 5] = [
-            (
-                DisplayFigures {
-                    valid_frames: 49,
-                    ..good()
-                },
-                "",
-                ["49 frames", "50 are needed", "hidden"],
-            ),
-            (
-                DisplayFigures {
-                    jitter_sd_ms: Some(2.01),
-                    ..good()
-                },
-                "",
-                ["2.01 ms", "allowed is 2.00 ms", "power saving"],
-            ),
-            (
-                DisplayFigures {
-                    mean_refresh_hz: Some(75.0),
-                    ..good()
-                },
-                "refresh_hz = [59, 61]",
-                ["75.00", "59 to 61", "settings"],
-            ),
-            (
-                DisplayFigures {
-                    full_screen: false,
-                    window_px: [800, 600],
-                    ..good()
-                },
-                "",
-                ["800×600", "1920×1080", "full screen"],
-            ),
-            (
-                DisplayFigures {
-                    focused: false,
-                    ..good()
-                },
-                "",
-                ["focus", "click", "window"],
-            ),
-        ];
-        for (figures, text, parts) in cases {
-            let verdict = judge(&figures, &asked(text));
-            assert!(verdict.is_refused());
-            let [one] = verdict.shortfalls() else {
-                panic!("{verdict:?}");
-            };
-            let message = one.to_string();
-            for part in parts {
-                assert!(message.contains(part), "{part:?} not in {message:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn a_protocol_may_be_content_to_warn_or_not_to_ask() {
-        let bad = DisplayFigures {
-            full_screen: false,
-            focused: false,
-            ..good()
-        };
-        let warned = judge(&bad, &asked("verdict = \"warn\""));
-        assert_eq!(warned.shortfalls().len(), 2);
-        assert!(!warned.is_refused());
-        assert_eq!(
-            judge(&bad, &asked("full_screen = false\nfocus = false")),
-            Verdict::Good
-        );
-    }
-
-    #[test]
-    fn the_stated_period_counts_where_it_agrees_with_the_measured() {
-        let period = |figures: DisplayFigures| figures.period_ns();
-        assert_eq!(period(good()), Some(16_683_350));
-        let unstated = DisplayFigures {
-            stated_refresh_hz: None,
-            ..good()
-        };
-        assert_eq!(period(unstated), Some(16_680_567));
-        let wrong = DisplayFigures {
-            stated_refresh_hz: Some(144.0),
-            ..good()
-        };
-        assert_eq!(period(wrong.clone()), Some(16_680_567));
-        let told = DisplayFigures {
-            told_refresh_hz: Some(59.951),
-            ..good()
-        };
-        assert_eq!(period(told), Some(16_680_289));
-        // A timer measures itself.
-        let timed = DisplayFigures {
-            method: FrameTimes::Timer,
-            ..wrong
-        };
-        assert_eq!(period(timed.clone()), Some(6_944_444));
-        assert_eq!(timed.counted_period_ns(), None);
-        assert_eq!(good().counted_period_ns(), Some(16_683_350));
-    }
-}
+mod tests;

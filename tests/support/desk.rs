@@ -10,6 +10,7 @@ use egui_kittest::kittest::Queryable as _;
 use egui_kittest::{Harness, Node};
 use greyfield::app::clock::Clock;
 use greyfield::app::pictures::Pictures;
+use greyfield::app::present_feedback::Displayed;
 use greyfield::app::sitting::Sitting;
 use greyfield::app::theme;
 use greyfield::record::{InputDevice, OnsetMethod, TrialRow};
@@ -31,6 +32,9 @@ pub struct Desk {
     /// What the disk says instead of storing, while it is full.
     pub disk_error: Rc<RefCell<Option<String>>>,
     pub study: Tiny,
+    /// Whether the display system tells when a frame was shown: so long after it was
+    /// handed over.
+    pub told_after_ns: Option<u64>,
 }
 
 impl Desk {
@@ -66,6 +70,7 @@ impl Desk {
             rows,
             disk_error,
             study,
+            told_after_ns: None,
         };
         desk.frame();
         desk
@@ -75,7 +80,15 @@ impl Desk {
     pub fn frame(&mut self) {
         self.harness.step();
         let ctx = self.harness.ctx.clone();
-        self.harness.state_mut().presented(&ctx, Instant::now());
+        let handed_over = Instant::now();
+        self.harness.state_mut().presented(&ctx, handed_over);
+        if let Some(ns) = self.told_after_ns {
+            self.pass_time(ns);
+            // A clock moved by hand gives its own time for any instant.
+            let at = Instant::now();
+            let frame = Displayed { handed_over, at };
+            self.harness.state_mut().displayed(frame);
+        }
     }
 
     pub fn screen(&self) -> Screen {

@@ -20,7 +20,9 @@ use x11rb::protocol::Event;
 use x11rb::protocol::present::{
     CompleteKind, CompleteMode, CompleteNotifyEvent, ConnectionExt as _, EventMask,
 };
-use x11rb::protocol::xproto::{ConnectionExt as _, CreateWindowAux, WindowClass};
+use x11rb::protocol::xproto::{
+    ConfigureWindowAux, ConnectionExt as _, CreateWindowAux, WindowClass,
+};
 use x11rb::rust_connection::RustConnection;
 
 /// Present events could not be asked for.
@@ -79,6 +81,8 @@ pub struct Listener {
     /// Never on the screen; the refreshes asked for are reported to it, so that the
     /// driver of the real window does not hear of them.
     own_window: u32,
+    window: u32,
+    root: u32,
     reports: Receiver<Report>,
     stop: Arc<AtomicBool>,
 }
@@ -134,16 +138,30 @@ impl Listener {
         Ok(Self {
             connection,
             own_window,
+            window,
+            root,
             reports,
             stop,
         })
     }
 
-    /// Asks for the time of the next refresh.
+    /// Asks for the time of the next refresh of the monitor that the window is on.
     ///
     /// # Errors
     /// [`X11Error`] if the connection broke.
     pub fn ask_refresh(&self) -> Result<(), X11Error> {
+        let corner = self
+            .connection
+            .translate_coordinates(self.window, self.root, 0, 0)?
+            .reply()?;
+        let (x, y) = (i32::from(corner.dst_x), i32::from(corner.dst_y));
+        self.connection
+            .configure_window(self.own_window, &ConfigureWindowAux::new().x(x).y(y))?;
+        self.wake()?;
+        Ok(())
+    }
+
+    fn wake(&self) -> Result<(), X11Error> {
         // The next one of those divisible by 1.
         self.connection
             .present_notify_msc(self.own_window, 0, 0, 1, 0)?;
@@ -167,7 +185,7 @@ impl Drop for Listener {
     fn drop(&mut self) {
         self.stop.store(true, Ordering::Relaxed);
         // Wakes the thread; if the server is gone, it has ended already.
-        let _ = self.ask_refresh();
+        let _ = self.wake();
     }
 }
 
