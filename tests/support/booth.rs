@@ -11,10 +11,10 @@ use greyfield::app::clock::Clock;
 use greyfield::app::pictures::Pictures;
 use greyfield::app::sitting::Sitting;
 use greyfield::app::{theme, window};
-use greyfield::protocol::Position;
+use greyfield::protocol::Language;
 use greyfield::record::{InputDevice, OnsetMethod, ParticipantId, Study, TrialRow};
 use greyfield::session::start::{self, Setting};
-use greyfield::session::{Effect, Event, FrameFigures, Screen};
+use greyfield::session::{DisplayOnRecord, Effect, Event, FrameFigures, Screen};
 use time::OffsetDateTime;
 use winit::window::Window;
 
@@ -110,15 +110,19 @@ impl Booth {
             started_utc: now,
             onset_method: OnsetMethod::PresentCall,
             onset_uncertainty_ms: None,
+            display: DisplayOnRecord::default(),
             refresh_period_ns: None,
             input_device: InputDevice::Keyboard,
+            language: Language::En,
         };
         let (protocol, manifest) = (self.tiny.protocol(), &self.tiny.manifest);
         let session = start::start(&protocol, manifest, &enrolment, &setting).expect("a plan");
-        let pictures = Pictures::new(self.tiny.path("stimuli"), manifest, session.plan());
+        let exhibits = start::exhibits(&protocol, manifest).expect("exhibits");
+        let folder = self.tiny.path("stimuli");
+        let pictures = Pictures::new(folder, manifest, &exhibits, session.plan());
         let rows = Rc::clone(&self.rows);
         let store = Box::new(move |effect: &Effect| {
-            let done = start::perform(effect, &mut enrolment.log);
+            let done = start::perform(effect, &mut enrolment);
             if let (Event::RowStored, Effect::StoreRow(row)) = (&done, effect) {
                 rows.borrow_mut().push((**row).clone());
             }
@@ -167,7 +171,7 @@ impl Booth {
         };
         let first = Screen::Image {
             trial: self.rows.borrow().len() % self.tiny.manifest.pairs.len(),
-            position: Position::First,
+            place: 0,
         };
         if self.key.is_some() && *screen == first {
             self.since_key = Some(0);
