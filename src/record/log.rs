@@ -50,7 +50,8 @@ impl RowLog {
         Ok((log, rows))
     }
 
-    fn open(path: &Path, participant: &str) -> Result<Self, RecordError> {
+    /// Opens the file for this process alone, and changes nothing.
+    pub(super) fn open(path: &Path, participant: &str) -> Result<Self, RecordError> {
         let file = OpenOptions::new()
             .read(true)
             .append(true)

@@ -24,6 +24,7 @@ pub mod read;
 pub mod row;
 mod slots;
 pub mod spreadsheet;
+pub mod standing;
 pub mod study;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -34,8 +35,9 @@ pub use log::RowLog;
 pub use participant::ParticipantId;
 pub use read::{Rows, Warning, read_folder, read_rows};
 pub use row::{InputDevice, OnsetMethod, Outcome, TrialRow};
-pub use slots::Release;
-pub use study::{Enrolment, Standing, Study};
+pub use slots::{Reinstatement, Rejection, Release};
+pub use standing::{Reinstated, Standing, rejections};
+pub use study::{Enrolment, Study};
 
 /// Folder of the data files in a results folder.
 pub const DATA_FOLDER: &str = "data";

@@ -1,7 +1,7 @@
 //! Who has taken part so far, and what that makes of the design's balance.
 
 use crate::protocol::{Condition, PlanError, Protocol, SessionPlan};
-use crate::record::{RecordError, Study, study::Standing};
+use crate::record::{RecordError, Standing, Study};
 
 /// Lines on the participants of a results folder.
 ///

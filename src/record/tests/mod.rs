@@ -1,6 +1,7 @@
 //! The promises of the results folder.
 
 mod lines;
+mod standings;
 mod studies;
 
 use super::row::SCHEMA_VERSION;
