@@ -6,6 +6,7 @@ mod bent_cones;
 mod bounces;
 mod browse;
 mod check;
+mod check_results;
 mod cost;
 mod demo;
 mod inter_reflection;
@@ -13,6 +14,7 @@ mod logging;
 mod model;
 mod order;
 mod output;
+mod participants;
 mod render;
 mod run;
 mod size;
@@ -57,6 +59,7 @@ enum Command {
     Tune(tune::Tune),
     Run(Box<run::Run>),
     Order(order::Order),
+    Participants(participants::Participants),
     Analyse(analyse::AnalyseArgs),
 }
 
@@ -140,6 +143,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Tune(args) => tune::run(&args),
         Command::Run(args) => run::run(&args, verbosity),
         Command::Order(args) => order::run(&args),
+        Command::Participants(args) => participants::run(&args),
         Command::Analyse(args) => analyse::run(&args),
     }
 }

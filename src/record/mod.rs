@@ -12,6 +12,7 @@
 //! RESULTS/data/…_data.csv            one file a participant's session, one row a trial
 //! ```
 
+pub mod audit;
 pub mod columns;
 pub mod description;
 pub mod error;
