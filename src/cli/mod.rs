@@ -9,6 +9,7 @@ mod check;
 mod check_results;
 mod cost;
 mod demo;
+mod export;
 mod inter_reflection;
 mod logging;
 mod model;
@@ -60,6 +61,7 @@ enum Command {
     Run(Box<run::Run>),
     Order(order::Order),
     Participants(participants::Participants),
+    Export(export::Export),
     Analyse(analyse::AnalyseArgs),
 }
 
@@ -144,6 +146,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Run(args) => run::run(&args, verbosity),
         Command::Order(args) => order::run(&args),
         Command::Participants(args) => participants::run(&args),
+        Command::Export(args) => export::run(&args, verbosity),
         Command::Analyse(args) => analyse::run(&args),
     }
 }

@@ -170,6 +170,15 @@ pub enum RecordError {
         /// The folder.
         path: PathBuf,
     },
+    /// The place of an export is taken.
+    #[error(
+        "{}: the folder has something in it already; name another one, or one that is empty",
+        path.display()
+    )]
+    ExportTaken {
+        /// The folder.
+        path: PathBuf,
+    },
     /// The protocol beside the data cannot be read.
     #[error(transparent)]
     Protocol(#[from] crate::config::ConfigError),

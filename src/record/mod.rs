@@ -8,6 +8,7 @@
 //! RESULTS/study.json                 the one protocol this folder belongs to
 //! RESULTS/materials/protocol.toml    that protocol, as it was
 //! RESULTS/dataset_description.json   Psych-DS: what every column means
+//! RESULTS/.psychdsignore             what is not for Psych-DS
 //! RESULTS/slots/                     who has which place in the design, and what became of it
 //! RESULTS/data/…_data.csv            one file a participant's session, one row a trial
 //! ```
@@ -16,6 +17,7 @@ pub mod audit;
 pub mod columns;
 pub mod description;
 pub mod error;
+pub mod export;
 mod files;
 pub mod identity;
 pub mod line;

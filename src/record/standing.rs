@@ -239,11 +239,7 @@ impl Study {
         for pilot in [self.is_pilot(), !self.is_pilot()] {
             let slots = self.slots(pilot);
             let listing = slots.list()?;
-            let claims: Vec<_> = slots
-                .claims_of(&listing)?
-                .into_iter()
-                .filter(|(_, record)| record.participant == participant.as_str())
-                .collect();
+            let claims = slots.claims_by(participant.as_str(), &listing)?;
             if !claims.is_empty() {
                 return Ok(Some(Held {
                     slots,

@@ -86,6 +86,7 @@ impl Study {
             "dataset_description.json",
             &slots::json(&path, &description)?,
         )?;
+        study.keep(".psychdsignore", description::PSYCHDS_IGNORE.as_bytes())?;
         Ok(study)
     }
 

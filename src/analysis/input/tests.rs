@@ -294,7 +294,7 @@ fn rejected_participants_are_left_out_and_named() {
     );
     let votes = |options: Options| {
         let data = read(&[dir.path().to_owned()], options).unwrap();
-        let votes: u64 = data.conditions.iter().map(|c| c.votes.a + c.votes.b).sum();
+        let votes: u32 = data.conditions.iter().map(|c| c.votes.a + c.votes.b).sum();
         (votes, data.notes)
     };
     let (counted, notes) = votes(Options::default());

@@ -104,15 +104,47 @@ impl Slots {
     pub fn claims_of(&self, listing: &Listing) -> Result<Vec<(Claim, ClaimRecord)>, RecordError> {
         let mut claims = Vec::new();
         for (&slot, files) in listing {
-            for (&number, files) in files {
-                // A listing made while others write may know a claim by its other files only.
+            for &number in files.keys() {
                 let claim = Claim { slot, number };
-                if files.claimed || self.path(claim, Part::Claim).exists() {
+                if self.has(files, claim) {
                     claims.push((claim, self.read_claim(claim)?));
                 }
             }
         }
         Ok(claims)
+    }
+
+    /// Every claim of one participant, by slot and number.
+    pub fn claims_by(
+        &self,
+        participant: &str,
+        listing: &Listing,
+    ) -> Result<Vec<(Claim, ClaimRecord)>, RecordError> {
+        let mut claims = Vec::new();
+        for (&slot, files) in listing {
+            for &number in files.keys() {
+                let claim = Claim { slot, number };
+                let others = {
+                    let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+                    let record = known.get(&(self.pilot, claim));
+                    record.is_some_and(|record| record.participant != participant)
+                };
+                if others || !self.has(files, claim) {
+                    continue;
+                }
+                let record = self.read_claim(claim)?;
+                if record.participant == participant {
+                    claims.push((claim, record));
+                }
+            }
+        }
+        Ok(claims)
+    }
+
+    /// A listing made while others write may know a claim by its other files only.
+    fn has(&self, slot: &names::SlotFiles, claim: Claim) -> bool {
+        let listed = slot.get(&claim.number).is_some_and(|files| files.claimed);
+        listed || self.path(claim, Part::Claim).exists()
     }
 
     /// Who made a claim.

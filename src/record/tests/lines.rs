@@ -143,7 +143,7 @@ fn a_session_is_open_in_one_place_at_a_time() {
 }
 
 prop_compose! {
-    fn any_row()(
+    pub(crate) fn any_row()(
         station_id in "[^\\p{C}]{1,64}",
         technique_first in "[=+@'\" ,;a-z0-9-]{1,20}",
         times in prop::array::uniform8(prop::option::of(any::<u64>())),

@@ -1,6 +1,6 @@
 //! The promises of the results folder.
 
-mod lines;
+pub(crate) mod lines;
 mod standings;
 mod studies;
 

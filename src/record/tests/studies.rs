@@ -93,7 +93,7 @@ fn a_folder_has_the_layout_of_psych_ds() {
     )
     .unwrap();
     // The rules of Psych-DS: these keys, and every column of every file described.
-    assert_eq!(description["@context"], "https://schema.org");
+    assert_eq!(description["@context"], "https://schema.org/");
     assert_eq!(description["@type"], "Dataset");
     assert!(description["name"].is_string() && description["description"].is_string());
     let described: Vec<&str> = description["variableMeasured"]
