@@ -224,6 +224,14 @@ struct Process {
     lives: u32,
 }
 
+impl Drop for Process {
+    fn drop(&mut self) {
+        // Also where the test has failed: nothing it started goes on after it.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
 struct Race {
     study: TinyStudy,
     results: PathBuf,

@@ -87,17 +87,26 @@ pub fn create_folder(path: &Path) -> Result<(), RecordError> {
     fs::create_dir_all(path).map_err(RecordError::io(path, "create the folder"))
 }
 
+/// Shows every name of a folder's files, in no order and without a copy of all: a
+/// folder of slots is listed at every event.
+///
+/// # Errors
+/// [`RecordError::Io`] naming the folder.
+pub fn each_name(folder: &Path, mut look: impl FnMut(&str)) -> Result<(), RecordError> {
+    let failed = || RecordError::io(folder, "list");
+    for entry in fs::read_dir(folder).map_err(failed())? {
+        look(&entry.map_err(failed())?.file_name().to_string_lossy());
+    }
+    Ok(())
+}
+
 /// Names of a folder's files, sorted.
 ///
 /// # Errors
 /// [`RecordError::Io`] naming the folder.
 pub fn names(folder: &Path) -> Result<Vec<String>, RecordError> {
-    let read = |entry: io::Result<fs::DirEntry>| {
-        entry.map(|entry| entry.file_name().to_string_lossy().into_owned())
-    };
-    let mut names = fs::read_dir(folder)
-        .and_then(|entries| entries.map(read).collect::<io::Result<Vec<_>>>())
-        .map_err(RecordError::io(folder, "list"))?;
+    let mut names = Vec::new();
+    each_name(folder, |name| names.push(name.to_owned()))?;
     names.sort_unstable();
     Ok(names)
 }

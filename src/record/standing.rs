@@ -238,7 +238,7 @@ impl Study {
     pub(super) fn held(&self, participant: &ParticipantId) -> Result<Option<Held>, RecordError> {
         for pilot in [self.is_pilot(), !self.is_pilot()] {
             let slots = self.slots(pilot);
-            let listing = slots.list()?;
+            let listing = slots.list_for(participant.as_str())?;
             let claims = slots.claims_by(participant.as_str(), &listing)?;
             if !claims.is_empty() {
                 return Ok(Some(Held {

@@ -22,7 +22,7 @@ pub(super) mod names;
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -35,7 +35,15 @@ use super::{RecordError, files};
 
 /// Claims that were read already. A claim's file never changes, so that a folder
 /// with thousands of them is read once only.
-pub(super) type KnownClaims = Arc<Mutex<HashMap<(bool, Claim), ClaimRecord>>>;
+pub(super) type KnownClaims = Arc<Mutex<Known>>;
+
+/// What [`KnownClaims`] keeps; `true` stands for the pilot's series.
+#[derive(Debug, Default)]
+pub(super) struct Known {
+    claims: HashMap<(bool, Claim), ClaimRecord>,
+    /// The one slot of each participant.
+    slots: HashMap<String, (bool, u32)>,
+}
 
 /// The folder of the slots, and which series is meant.
 #[derive(Debug)]
@@ -70,7 +78,20 @@ impl Slots {
 
     /// What the names of the files say now.
     pub fn list(&self) -> Result<Listing, RecordError> {
-        names::list(&self.folder, self.pilot)
+        names::list(&self.folder, self.pilot, None)
+    }
+
+    /// The same of the slot of a participant alone, where that is known already.
+    pub fn list_for(&self, participant: &str) -> Result<Listing, RecordError> {
+        let known = self.known().slots.get(participant).copied();
+        match known {
+            Some((pilot, _)) if pilot != self.pilot => Ok(Listing::new()),
+            known => names::list(&self.folder, self.pilot, known.map(|(_, slot)| slot)),
+        }
+    }
+
+    fn known(&self) -> MutexGuard<'_, Known> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The lowest slot nobody holds.
@@ -125,8 +146,8 @@ impl Slots {
             for &number in files.keys() {
                 let claim = Claim { slot, number };
                 let others = {
-                    let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-                    let record = known.get(&(self.pilot, claim));
+                    let known = self.known();
+                    let record = known.claims.get(&(self.pilot, claim));
                     record.is_some_and(|record| record.participant != participant)
                 };
                 if others || !self.has(files, claim) {
@@ -150,12 +171,14 @@ impl Slots {
     /// Who made a claim.
     pub fn read_claim(&self, claim: Claim) -> Result<ClaimRecord, RecordError> {
         let key = (self.pilot, claim);
-        let lock = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(known) = lock().get(&key) {
-            return Ok(known.clone());
+        if let Some(record) = self.known().claims.get(&key) {
+            return Ok(record.clone());
         }
         let record: ClaimRecord = load(&self.path(claim, Part::Claim))?;
-        lock().insert(key, record.clone());
+        let mut known = self.known();
+        let slot = (self.pilot, claim.slot);
+        known.slots.insert(record.participant.clone(), slot);
+        known.claims.insert(key, record.clone());
         Ok(record)
     }
 

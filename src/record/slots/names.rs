@@ -99,12 +99,23 @@ pub(in crate::record) fn parse(name: &str, pilot: bool) -> Option<(Claim, Part)>
     Some((claim, part))
 }
 
-/// What the names of a folder say about a series.
-pub(in crate::record) fn list(folder: &Path, pilot: bool) -> Result<Listing, RecordError> {
+/// What the names of a folder say about a series, or about one slot of it.
+pub(in crate::record) fn list(
+    folder: &Path,
+    pilot: bool,
+    only: Option<u32>,
+) -> Result<Listing, RecordError> {
+    let begins = match only {
+        Some(slot) => format!("{}-{slot:04}_", prefix(pilot)),
+        None => format!("{}-", prefix(pilot)),
+    };
     let mut listing = Listing::new();
-    for name in files::names(folder)? {
-        let Some((claim, part)) = parse(&name, pilot) else {
-            continue;
+    files::each_name(folder, |name| {
+        if !name.starts_with(&begins) {
+            return;
+        }
+        let Some((claim, part)) = parse(name, pilot) else {
+            return;
         };
         let known = listing.entry(claim.slot).or_default();
         let known = known.entry(claim.number).or_default();
@@ -115,7 +126,7 @@ pub(in crate::record) fn list(folder: &Path, pilot: bool) -> Result<Listing, Rec
             Part::Rejected(count) => known.rejected = known.rejected.max(count),
             Part::Reinstated(count) => known.reinstated = known.reinstated.max(count),
         }
-    }
+    })?;
     for known in listing.values_mut().flat_map(BTreeMap::values_mut) {
         known.segments.sort_unstable();
     }
