@@ -156,7 +156,7 @@ impl Study {
     ) -> Result<(), RecordError> {
         let station = held.station();
         loop {
-            let listing = held.slots.list()?;
+            let listing = held.slots.list_for(participant.as_str())?;
             let (number, released) = latest(listing.get(&slot)).unwrap_or((0, true));
             if !released {
                 let holder = held.slots.read_claim(Claim { slot, number })?;

@@ -128,12 +128,13 @@ impl Session<'_> {
         };
         self.flaws(findings);
         let plan = materials.plan(self.study.identity(), claim.claim.slot);
-        for (index, (row, &line)) in self.rows.rows.iter().zip(&self.rows.lines).enumerate() {
+        for (row, &line) in self.rows.rows.iter().zip(&self.rows.lines) {
             self.belongs(row, line, claim, findings);
             if let Some(plan) = &plan {
-                self.follows(plan, (index, row, line), findings);
+                self.follows(plan, row, line, findings);
             }
         }
+        self.order(findings);
         self.length(plan.as_ref(), claim, findings);
         let grey_ns = materials.protocol.as_ref().map(|p| p.grey.duration_ns());
         clock::check(&self.path, &self.rows, grey_ns, findings);
@@ -200,26 +201,17 @@ impl Session<'_> {
     }
 
     /// The row is the trial that the plan has in its place, with the study's images.
-    fn follows(
-        &self,
-        plan: &SessionPlan,
-        (index, row, line): (usize, &TrialRow, u64),
-        findings: &mut Findings,
-    ) {
+    fn follows(&self, plan: &SessionPlan, row: &TrialRow, line: u64, findings: &mut Findings) {
         let at = (self.path.clone(), line);
-        let Some(trial) = plan.trials.get(index) else {
-            let message = format!("one trial too many: the plan has {}", plan.trials.len());
-            findings.line(Severity::Error, at, message, CHANGED);
-            return;
-        };
-        if row.trial_index as usize != trial.index {
+        let index = row.trial_index as usize;
+        let Some(trial) = plan.trials.iter().find(|trial| trial.index == index) else {
             let message = format!(
-                "trial {} where trial {} is expected: a row is missing or out of order",
-                row.trial_index, trial.index
+                "trial {index}, but the plan has {} from 0",
+                plan.trials.len()
             );
             findings.line(Severity::Error, at, message, CHANGED);
             return;
-        }
+        };
         let (first, second) = plan.techniques(trial);
         let planned = (plan.conditions[trial.condition].id.as_str(), first, second);
         let found = (
@@ -236,6 +228,30 @@ impl Session<'_> {
         } else if let Some(message) = self.other_image(trial, row) {
             let mend = "the session showed other pictures than the study's: reject the participant, and find out how";
             findings.line(Severity::Error, at, message, mend);
+        }
+    }
+
+    /// Trials are on record in the order they were shown, and none before the last is missing.
+    fn order(&self, findings: &mut Findings) {
+        let mut expected = 0;
+        for (row, &line) in self.rows.rows.iter().zip(&self.rows.lines) {
+            let at = (self.path.clone(), line);
+            if row.trial_index > expected {
+                let missing = match row.trial_index - expected {
+                    1 => format!("trial {expected} is missing"),
+                    _ => format!("trials {expected} to {} are missing", row.trial_index - 1),
+                };
+                let message = format!("{missing}, though later ones are on record");
+                findings.line(Severity::Error, at, message, CHANGED);
+            } else if row.trial_index < expected {
+                let message = format!(
+                    "trial {} stands after trial {}: out of order",
+                    row.trial_index,
+                    expected - 1
+                );
+                findings.line(Severity::Error, at, message, CHANGED);
+            }
+            expected = row.trial_index.saturating_add(1);
         }
     }
 

@@ -30,6 +30,7 @@ use serde::de::DeserializeOwned;
 pub(super) use events::{ClaimRecord, SegmentRecord};
 pub use events::{Reinstatement, Rejection, Release};
 pub(super) use names::{Claim, Listing, Part};
+use names::{ClaimFiles, SlotFiles};
 
 use super::{RecordError, files};
 
@@ -78,16 +79,53 @@ impl Slots {
 
     /// What the names of the files say now.
     pub fn list(&self) -> Result<Listing, RecordError> {
-        names::list(&self.folder, self.pilot, None)
+        names::list(&self.folder, self.pilot)
     }
 
-    /// The same of the slot of a participant alone, where that is known already.
+    /// As [`Self::list`], but of the slot of one participant alone where that is known
+    /// already: by asking for the names that may be there, which does not grow with the
+    /// folder.
     pub fn list_for(&self, participant: &str) -> Result<Listing, RecordError> {
         let known = self.known().slots.get(participant).copied();
         match known {
+            None => self.list(),
             Some((pilot, _)) if pilot != self.pilot => Ok(Listing::new()),
-            known => names::list(&self.folder, self.pilot, known.map(|(_, slot)| slot)),
+            Some((_, slot)) => Ok(Listing::from([(slot, self.probe(slot, participant)?)])),
         }
+    }
+
+    /// What there is of one slot now; events other than the release only of one
+    /// participant's claims.
+    fn probe(&self, slot: u32, participant: &str) -> Result<SlotFiles, RecordError> {
+        let mut files = SlotFiles::new();
+        let mut segment = 2;
+        for number in 1.. {
+            let claim = Claim { slot, number };
+            let there = |part| self.path(claim, part).exists();
+            if !there(Part::Claim) {
+                break;
+            }
+            let mut known = ClaimFiles {
+                claimed: true,
+                released: there(Part::Released),
+                ..ClaimFiles::default()
+            };
+            if self.read_claim(claim)?.participant == participant {
+                // Segments count on from claim to claim, and none is left out.
+                while there(Part::Segment(segment)) {
+                    known.segments.push(segment);
+                    segment += 1;
+                }
+                while there(Part::Rejected(known.rejected + 1)) {
+                    known.rejected += 1;
+                }
+                while there(Part::Reinstated(known.reinstated + 1)) {
+                    known.reinstated += 1;
+                }
+            }
+            files.insert(number, known);
+        }
+        Ok(files)
     }
 
     fn known(&self) -> MutexGuard<'_, Known> {
@@ -163,7 +201,7 @@ impl Slots {
     }
 
     /// A listing made while others write may know a claim by its other files only.
-    fn has(&self, slot: &names::SlotFiles, claim: Claim) -> bool {
+    fn has(&self, slot: &SlotFiles, claim: Claim) -> bool {
         let listed = slot.get(&claim.number).is_some_and(|files| files.claimed);
         listed || self.path(claim, Part::Claim).exists()
     }

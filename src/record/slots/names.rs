@@ -99,21 +99,10 @@ pub(in crate::record) fn parse(name: &str, pilot: bool) -> Option<(Claim, Part)>
     Some((claim, part))
 }
 
-/// What the names of a folder say about a series, or about one slot of it.
-pub(in crate::record) fn list(
-    folder: &Path,
-    pilot: bool,
-    only: Option<u32>,
-) -> Result<Listing, RecordError> {
-    let begins = match only {
-        Some(slot) => format!("{}-{slot:04}_", prefix(pilot)),
-        None => format!("{}-", prefix(pilot)),
-    };
+/// What the names of a folder say about a series.
+pub(in crate::record) fn list(folder: &Path, pilot: bool) -> Result<Listing, RecordError> {
     let mut listing = Listing::new();
     files::each_name(folder, |name| {
-        if !name.starts_with(&begins) {
-            return;
-        }
         let Some((claim, part)) = parse(name, pilot) else {
             return;
         };

@@ -1,5 +1,6 @@
 //! The promises of the results folder.
 
+mod audits;
 pub(crate) mod lines;
 mod standings;
 mod studies;
