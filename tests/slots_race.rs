@@ -28,7 +28,7 @@ const PROCESSES: usize = 8;
 const EVENTS: usize = 10_000;
 const KILLS: usize = 120;
 /// Something hangs if it takes longer than this.
-const LIMIT: Duration = Duration::from_secs(240);
+const LIMIT: Duration = Duration::from_secs(900);
 
 /// Where a process finds its work.
 const FOLDER: &str = "GREYFIELD_RACE_STUDY";
@@ -38,13 +38,13 @@ const WHO: &str = "GREYFIELD_RACE_WHO";
 
 /// What a process does; the number is its share of a hundred.
 const EVENTS_OF_A_PROCESS: [(Deed, u32); 7] = [
-    (Deed::EnrolAndFinish, 24),
-    (Deed::EnrolAndAbandon, 14),
+    (Deed::EnrolAndFinish, 14),
+    (Deed::EnrolAndAbandon, 6),
     (Deed::Resume, 14),
-    (Deed::Release, 12),
-    (Deed::Reject, 12),
-    (Deed::Reinstate, 16),
-    (Deed::Replace, 8),
+    (Deed::Release, 14),
+    (Deed::Reject, 21),
+    (Deed::Reinstate, 25),
+    (Deed::Replace, 6),
 ];
 
 #[derive(Clone, Copy)]

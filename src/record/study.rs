@@ -151,7 +151,7 @@ impl Study {
         check_station(station)?;
         let path = self.data_path(participant);
         // The file comes first: its name is what makes the id unique.
-        let Some(log) = RowLog::create(&path, participant.as_str())? else {
+        let Some(log) = RowLog::create(&path)? else {
             return Err(RecordError::ParticipantExists {
                 participant: participant.to_string(),
                 answered: read::read_rows(&path)?.rows.len(),
