@@ -494,7 +494,7 @@ fn the_design_is_balanced_once_its_holes_are_filled(race: &Race) {
         .collect();
     assert_eq!(held, (0..=last).collect::<Vec<_>>(), "each slot once");
     let protocol = study.protocol().unwrap();
-    let mut counts = vec![0_u32; TRIALS * TRIALS];
+    let mut counts = [0_u32; TRIALS * TRIALS];
     for &slot in &held {
         let plan = SessionPlan::new(&protocol, &study.identity().conditions, slot).unwrap();
         for trial in &plan.trials {
