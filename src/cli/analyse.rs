@@ -37,6 +37,9 @@ pub struct AnalyseArgs {
     /// Count pilot sessions too.
     #[arg(long)]
     include_pilot: bool,
+    /// Count rejected participants too (see `greyfield participants`).
+    #[arg(long)]
+    include_rejected: bool,
     /// Say on standard error how long each step took.
     #[arg(long)]
     timings: bool,
@@ -58,6 +61,7 @@ enum FormatName {
 pub fn run(args: &AnalyseArgs) -> Result<(), Failure> {
     let options = Options {
         include_pilot: args.include_pilot,
+        include_rejected: args.include_rejected,
     };
     let settings = Settings { alpha: args.alpha };
     let start = Instant::now();

@@ -1,11 +1,12 @@
 //! `greyfield check`: is a folder of stimuli what it says, and would this machine render the same?
+//! A results folder goes to [`check_results`].
 
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use clap::Args;
 
-use super::{Failure, Verbosity, check_display, render};
+use super::{Failure, Verbosity, check_display, check_results, render};
 use crate::render::technique::TECHNIQUES;
 use crate::render::{Gpu, Renderer, stability};
 use crate::stimulus::check::{
@@ -14,7 +15,12 @@ use crate::stimulus::check::{
 use crate::stimulus::manifest::AdapterRecord;
 use crate::stimulus::{Folders, Manifest, StimulusError, StimulusSet};
 
-/// Check a folder of stimuli: against its manifest, its set, and what this machine renders.
+/// Check a folder: stimuli against their manifest, their set, and what this machine renders; or
+/// the results of a study.
+///
+/// A results folder (with study.json) is read whole: slots, every row against the plan of its
+/// slot and the study's images, the clock, interruptions. Each finding says where and what to do;
+/// errors end in exit code 1.
 ///
 /// Every image must be there, unchanged. With --set, the images must be those of the set as it
 /// is now, and the set is rendered again on this machine's adapter and compared: an image passes
@@ -22,10 +28,10 @@ use crate::stimulus::{Folders, Manifest, StimulusError, StimulusSet};
 /// folders are compared in the same way.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example:\n  greyfield check stimuli/thesis-2010\n  greyfield check stimuli/thesis-2010 --set stimuli/thesis-2010.toml --diff differences\n  greyfield check --stability\n  greyfield check --display --seconds 5"
+    after_help = "Example:\n  greyfield check stimuli/thesis-2010\n  greyfield check stimuli/thesis-2010 --set stimuli/thesis-2010.toml --diff differences\n  greyfield check results/thesis-2010\n  greyfield check --stability\n  greyfield check --display --seconds 5"
 )]
 pub struct Check {
-    /// The folder with the images and their manifest.
+    /// The folder with the images and their manifest, or a results folder.
     #[arg(required_unless_present_any = ["stability", "display"])]
     folder: Option<PathBuf>,
     /// Instead of a folder: draw every technique on frames at the edge of what can be drawn, and
@@ -62,6 +68,9 @@ pub struct Check {
     /// Write the differences, 16 times amplified, as PNG files into this folder.
     #[arg(long, value_name = "DIR")]
     diff: Option<PathBuf>,
+    /// For a results folder: how findings are printed.
+    #[arg(long, value_enum, conflicts_with_all = ["set", "against", "diff", "stability"])]
+    format: Option<check_results::Format>,
 }
 
 /// Runs the command.
@@ -75,6 +84,16 @@ pub fn run(args: &Check, verbosity: Verbosity) -> Result<(), Failure> {
     let Some(folder) = &args.folder else {
         return stability(verbosity);
     };
+    if check_results::is_results(folder) {
+        let format = args.format.unwrap_or(check_results::Format::Text);
+        return check_results::run(folder, format);
+    }
+    if args.format.is_some() {
+        return Err(Failure::bad_input(anyhow!(
+            "{}: --format is for a results folder, and this one has no study.json",
+            folder.display()
+        )));
+    }
     let manifest = Manifest::load(folder).map_err(Failure::bad_input)?;
     let mut problems = files(&manifest, folder)?;
     let set = match &args.set {

@@ -163,6 +163,7 @@ fn observe(
 fn analyse_results(results: &Path, page: &Path) -> Result<bool, Failure> {
     let options = Options {
         include_pilot: true,
+        ..Default::default()
     };
     let data = match input::read(&[results.to_owned()], options) {
         Ok(data) => data,

@@ -7,13 +7,16 @@ mod bounces;
 mod browse;
 mod check;
 mod check_display;
+mod check_results;
 mod cost;
 mod demo;
+mod export;
 mod inter_reflection;
 mod logging;
 mod model;
 mod order;
 mod output;
+mod participants;
 mod render;
 mod run;
 mod size;
@@ -58,6 +61,8 @@ enum Command {
     Tune(tune::Tune),
     Run(Box<run::Run>),
     Order(order::Order),
+    Participants(participants::Participants),
+    Export(export::Export),
     Analyse(analyse::AnalyseArgs),
 }
 
@@ -141,6 +146,8 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Tune(args) => tune::run(&args),
         Command::Run(args) => run::run(&args, verbosity),
         Command::Order(args) => order::run(&args),
+        Command::Participants(args) => participants::run(&args),
+        Command::Export(args) => export::run(&args, verbosity),
         Command::Analyse(args) => analyse::run(&args),
     }
 }

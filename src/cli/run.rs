@@ -245,8 +245,14 @@ fn headless(args: &Run, prepared: &Prepared, verbosity: Verbosity) -> Result<(),
     let bar = verbosity.progress(participants.into());
     let summary = headless
         .run(participants, OffsetDateTime::now_utc, |progress| {
-            if let Progress::Finished(_) = progress {
-                bar.inc(1);
+            match progress {
+                // At once: the run may fail later, and this is about data on disk.
+                Progress::Started(enrolment) => enrolment
+                    .warnings
+                    .iter()
+                    .for_each(|warning| bar.suspend(|| eprintln!("warning: {warning}"))),
+                Progress::Finished(_) => bar.inc(1),
+                Progress::Stored { .. } => {}
             }
             if told.is_ok() {
                 told = tell(&mut stdout, &progress, args.format, verbosity);
@@ -255,9 +261,6 @@ fn headless(args: &Run, prepared: &Prepared, verbosity: Verbosity) -> Result<(),
         .map_err(failure_of_run)?;
     bar.finish_and_clear();
     told?;
-    for warning in &summary.warnings {
-        eprintln!("warning: {warning}");
-    }
     summarise(&mut stdout, &summary, args.format, verbosity)?;
     Ok(())
 }
@@ -271,7 +274,7 @@ pub(super) fn failure_of_opening(error: start::OpenError) -> Failure {
 }
 
 /// A wrong folder or name is the user's to mend, a disk that fails is not.
-fn failure_of_folder(error: RecordError) -> Failure {
+pub(super) fn failure_of_folder(error: RecordError) -> Failure {
     match error {
         RecordError::Io { .. } | RecordError::Row { .. } => error.into(),
         _ => Failure::bad_input(error),
@@ -296,7 +299,7 @@ fn tell(
         (Format::Json, Progress::Started(enrolment)) => writeln!(
             stdout,
             "{}",
-            json!({"event": "started", "participant": enrolment.participant.as_str(), "slot": enrolment.slot, "segment": enrolment.segment, "answered": enrolment.rows.len()})
+            json!({"event": "started", "participant": enrolment.participant.as_str(), "slot": enrolment.slot, "segment": enrolment.segment, "answered": enrolment.rows.len(), "warnings": enrolment.warnings})
         ),
         (Format::Json, Progress::Stored { row_id, path }) => writeln!(
             stdout,

@@ -105,6 +105,83 @@ pub enum RecordError {
         /// The slot.
         slot: u32,
     },
+    /// There is nothing to give up.
+    #[error(
+        "participant {participant:?} was released from slot {slot} on {released_utc} already ({reason})"
+    )]
+    AlreadyReleased {
+        /// The id.
+        participant: String,
+        /// The slot.
+        slot: u32,
+        /// The reason on record.
+        reason: String,
+        /// Since when.
+        released_utc: String,
+    },
+    /// The data is marked already.
+    #[error("participant {participant:?} was rejected on {rejected_utc} already ({reason})")]
+    AlreadyRejected {
+        /// The id.
+        participant: String,
+        /// The reason on record.
+        reason: String,
+        /// Since when.
+        rejected_utc: String,
+    },
+    /// There is nothing to take back.
+    #[error(
+        "participant {participant:?} is neither rejected nor released (slot {slot}); there is nothing to take back"
+    )]
+    NothingToReinstate {
+        /// The id.
+        participant: String,
+        /// The slot.
+        slot: u32,
+    },
+    /// Somebody else sits there now.
+    #[error(
+        "participant {participant:?} cannot be reinstated: slot {slot} is held by participant {holder:?} since {since_utc}; release {holder:?} first if {participant:?} is to have it back"
+    )]
+    SlotTaken {
+        /// The id.
+        participant: String,
+        /// The slot.
+        slot: u32,
+        /// Who has it.
+        holder: String,
+        /// Since when.
+        since_utc: String,
+    },
+    /// A data file without a slot.
+    #[error(
+        "participant {participant:?} has a data file but no slot: the program was stopped while the slot was being taken; resume the session, then try again"
+    )]
+    NoSlot {
+        /// The id.
+        participant: String,
+    },
+    /// Not a results folder.
+    #[error(
+        "{}: not a results folder, it has no study.json; name the folder that `greyfield run --results` was given",
+        path.display()
+    )]
+    NoStudy {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The place of an export is taken.
+    #[error(
+        "{}: the folder has something in it already; name another one, or one that is empty",
+        path.display()
+    )]
+    ExportTaken {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The protocol beside the data cannot be read.
+    #[error(transparent)]
+    Protocol(#[from] crate::config::ConfigError),
     /// The session is open elsewhere.
     #[error(
         "{}: the session of participant {participant:?} is running in another window or on another computer; end it there first",

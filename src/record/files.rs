@@ -14,17 +14,42 @@ use super::RecordError;
 /// # Errors
 /// [`RecordError::Io`] naming the file.
 pub fn create_whole(path: &Path, content: &[u8]) -> Result<bool, RecordError> {
-    let (draft, mut file) = draft_beside(path)?;
-    let written = file
-        .write_all(content)
-        .and_then(|()| file.sync_all())
-        .map_err(RecordError::io(&draft, "write"));
-    let published = written.and_then(|()| publish(&draft, path, content));
+    create_whole_open(path, content, |_| ()).map(|file| file.is_some())
+}
+
+/// The same, and the file stays open for reading and appending; `None` if it is there
+/// already. `prepare` sees it before anybody else can: a lock taken there is taken
+/// when the name appears.
+///
+/// # Errors
+/// [`RecordError::Io`] naming the file.
+pub fn create_whole_open(
+    path: &Path,
+    content: &[u8],
+    prepare: impl Fn(&File),
+) -> Result<Option<File>, RecordError> {
+    let (draft, file) = draft_beside(path)?;
+    prepare(&file);
+    let written = write_synced(&file, content).map_err(RecordError::io(&draft, "write"));
+    let published = written.and_then(|()| publish((&draft, file), path, content, prepare));
     // The draft's name has served; should this fail, a dot file stays, which nobody reads.
     let _ = fs::remove_file(&draft);
     let created = published?;
     sync_folder(path)?;
     Ok(created)
+}
+
+fn write_synced(mut file: &File, content: &[u8]) -> io::Result<()> {
+    file.write_all(content)?;
+    file.sync_all()
+}
+
+fn open_new(path: &Path) -> io::Result<File> {
+    OpenOptions::new()
+        .read(true)
+        .append(true)
+        .create_new(true)
+        .open(path)
 }
 
 /// A new file beside `path` that no reader takes for data.
@@ -34,7 +59,7 @@ fn draft_beside(path: &Path) -> Result<(PathBuf, File), RecordError> {
     let mut attempt = 0_u32;
     loop {
         let draft = path.with_file_name(format!(".{name}.{process}-{attempt}.draft"));
-        match OpenOptions::new().write(true).create_new(true).open(&draft) {
+        match open_new(&draft) {
             Ok(file) => return Ok((draft, file)),
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists && attempt < 1000 => {
                 attempt += 1;
@@ -45,24 +70,33 @@ fn draft_beside(path: &Path) -> Result<(PathBuf, File), RecordError> {
 }
 
 /// Gives the draft its name, unless the name is taken.
-fn publish(draft: &Path, path: &Path, content: &[u8]) -> Result<bool, RecordError> {
+fn publish(
+    (draft, file): (&Path, File),
+    path: &Path,
+    content: &[u8],
+    prepare: impl Fn(&File),
+) -> Result<Option<File>, RecordError> {
     match fs::hard_link(draft, path) {
-        Ok(()) => Ok(true),
-        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(false),
+        Ok(()) => Ok(Some(file)),
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(None),
         // Some shared folders know no hard links; there the name is still given out
         // once only, but a crash may leave the file empty.
-        Err(_) => create_plainly(path, content),
+        Err(_) => create_plainly(path, content, prepare),
     }
 }
 
-fn create_plainly(path: &Path, content: &[u8]) -> Result<bool, RecordError> {
-    match OpenOptions::new().write(true).create_new(true).open(path) {
-        Ok(mut file) => file
-            .write_all(content)
-            .and_then(|()| file.sync_all())
-            .map(|()| true)
-            .map_err(RecordError::io(path, "write")),
-        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(false),
+fn create_plainly(
+    path: &Path,
+    content: &[u8],
+    prepare: impl Fn(&File),
+) -> Result<Option<File>, RecordError> {
+    match open_new(path) {
+        Ok(file) => {
+            prepare(&file);
+            write_synced(&file, content).map_err(RecordError::io(path, "write"))?;
+            Ok(Some(file))
+        }
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(None),
         Err(error) => Err(RecordError::io(path, "create")(error)),
     }
 }
@@ -87,17 +121,26 @@ pub fn create_folder(path: &Path) -> Result<(), RecordError> {
     fs::create_dir_all(path).map_err(RecordError::io(path, "create the folder"))
 }
 
+/// Shows every name of a folder's files, in no order and without a copy of all: a
+/// folder of slots is listed at every event.
+///
+/// # Errors
+/// [`RecordError::Io`] naming the folder.
+pub fn each_name(folder: &Path, mut look: impl FnMut(&str)) -> Result<(), RecordError> {
+    let failed = || RecordError::io(folder, "list");
+    for entry in fs::read_dir(folder).map_err(failed())? {
+        look(&entry.map_err(failed())?.file_name().to_string_lossy());
+    }
+    Ok(())
+}
+
 /// Names of a folder's files, sorted.
 ///
 /// # Errors
 /// [`RecordError::Io`] naming the folder.
 pub fn names(folder: &Path) -> Result<Vec<String>, RecordError> {
-    let read = |entry: io::Result<fs::DirEntry>| {
-        entry.map(|entry| entry.file_name().to_string_lossy().into_owned())
-    };
-    let mut names = fs::read_dir(folder)
-        .and_then(|entries| entries.map(read).collect::<io::Result<Vec<_>>>())
-        .map_err(RecordError::io(folder, "list"))?;
+    let mut names = Vec::new();
+    each_name(folder, |name| names.push(name.to_owned()))?;
     names.sort_unstable();
     Ok(names)
 }

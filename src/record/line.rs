@@ -41,6 +41,22 @@ pub fn encode(row: &TrialRow) -> Result<Vec<u8>, String> {
     Ok(line)
 }
 
+/// The cells of a row as they stand in a line, without the checksum's.
+///
+/// # Errors
+/// As [`encode`].
+pub fn cells(row: &TrialRow) -> Result<Vec<String>, String> {
+    let line = encode(row)?;
+    let fields = &line[..line.len() - CHECKSUM_LENGTH - 1];
+    let mut record = csv::StringRecord::new();
+    csv::ReaderBuilder::new()
+        .has_headers(false)
+        .from_reader(fields)
+        .read_record(&mut record)
+        .map_err(|error| error.to_string())?;
+    Ok(record.iter().map(str::to_owned).collect())
+}
+
 /// The fields of a line without its line break, its checksum tested; `None` if
 /// the line is not whole.
 #[must_use]

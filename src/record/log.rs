@@ -17,13 +17,20 @@ pub struct RowLog {
 }
 
 impl RowLog {
-    /// Makes the file of a new session, or gives `None` if there is one already.
-    pub(super) fn create(path: &Path, participant: &str) -> Result<Option<Self>, RecordError> {
-        if files::create_whole(path, line::header().as_bytes())? {
-            Self::open(path, participant).map(Some)
-        } else {
-            Ok(None)
-        }
+    /// Makes the file of a new session, or gives `None` if there is one already. It is
+    /// locked before it has its name: nobody resumes a session that is just being
+    /// enrolled, which would give it a slot of its own.
+    pub(super) fn create(path: &Path) -> Result<Option<Self>, RecordError> {
+        // A folder whose file system knows no locks is still usable by one computer.
+        let lock = |file: &File| {
+            let _ = file.try_lock();
+        };
+        let file = files::create_whole_open(path, line::header().as_bytes(), lock)?;
+        Ok(file.map(|file| Self {
+            path: path.to_owned(),
+            file,
+            suspect: false,
+        }))
     }
 
     /// Opens the file of an interrupted session, ends a line that a crash has cut
@@ -50,7 +57,8 @@ impl RowLog {
         Ok((log, rows))
     }
 
-    fn open(path: &Path, participant: &str) -> Result<Self, RecordError> {
+    /// Opens the file for this process alone, and changes nothing.
+    pub(super) fn open(path: &Path, participant: &str) -> Result<Self, RecordError> {
         let file = OpenOptions::new()
             .read(true)
             .append(true)

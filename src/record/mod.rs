@@ -8,6 +8,7 @@
 //! RESULTS/study.json                 the one protocol this folder belongs to
 //! RESULTS/materials/protocol.toml    that protocol, as it was
 //! RESULTS/dataset_description.json   Psych-DS: what every column means
+//! RESULTS/.psychdsignore             what is not for Psych-DS
 //! RESULTS/slots/                     who has which place in the design, and what became of it
 //! RESULTS/participants/              what participants agreed to and chose to tell of themselves
 //! RESULTS/displays/                  what the display of each session was found to be
@@ -15,10 +16,12 @@
 //! ```
 
 pub mod about;
+pub mod audit;
 pub mod columns;
 pub mod description;
 pub mod display;
 pub mod error;
+pub mod export;
 mod files;
 pub mod identity;
 pub mod line;
@@ -28,6 +31,7 @@ pub mod read;
 pub mod row;
 mod slots;
 pub mod spreadsheet;
+pub mod standing;
 pub mod study;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -39,8 +43,9 @@ pub use log::RowLog;
 pub use participant::ParticipantId;
 pub use read::{Rows, Warning, read_folder, read_rows};
 pub use row::{DisplayVerdict, InputDevice, OnsetMethod, Outcome, Response, TrialRow};
-pub use slots::Release;
-pub use study::{Enrolment, Standing, Study};
+pub use slots::{Reinstatement, Rejection, Release};
+pub use standing::{Reinstated, Standing, rejections};
+pub use study::{Enrolment, Study};
 
 /// Folder of the data files in a results folder.
 pub const DATA_FOLDER: &str = "data";

@@ -34,6 +34,8 @@ pub struct Warning {
 pub enum Flaw {
     /// The checksum is missing or does not fit.
     Damaged,
+    /// The same of a last line that has no line break: the last write was cut off.
+    CutOff,
     /// The row's id stood before; the first one counts.
     Repeated,
 }
@@ -44,6 +46,9 @@ impl fmt::Display for Warning {
         f.write_str(match self.flaw {
             Flaw::Damaged => {
                 "passed over: the line was cut off by a crash or changed since (its checksum does not fit)"
+            }
+            Flaw::CutOff => {
+                "passed over: the line was cut off by a crash; what there is of it stays, and the next row goes on a line of its own"
             }
             Flaw::Repeated => "passed over: this row_id stands further up already",
         })
@@ -79,7 +84,7 @@ pub fn read_folder(results: &Path) -> Result<Rows, RecordError> {
 
 /// The rows of a data file's bytes; `path` is only named.
 pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Rows, RecordError> {
-    let mut lines = bytes.split(|&byte| byte == b'\n');
+    let mut lines = bytes.split(|&byte| byte == b'\n').peekable();
     let first = lines.next().unwrap_or_default();
     let mut result = Rows::default();
     if first.len() == bytes.len() && line::header().as_bytes().starts_with(bytes) {
@@ -88,11 +93,13 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Rows, RecordError> {
     }
     let header = header(path, first)?;
     let mut seen = HashSet::new();
-    for (index, text) in lines.enumerate() {
-        let line = index as u64 + 2;
+    let mut line = 1;
+    while let Some(text) = lines.next() {
+        line += 1;
         if text.is_empty() {
             continue;
         }
+        let is_last = lines.peek().is_none();
         let mut warn = |flaw| {
             result.warnings.push(Warning {
                 path: path.to_owned(),
@@ -101,7 +108,7 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Rows, RecordError> {
             });
         };
         let Some(fields) = line::checked(text) else {
-            warn(Flaw::Damaged);
+            warn(if is_last { Flaw::CutOff } else { Flaw::Damaged });
             continue;
         };
         let row = decode(path, line, &header, fields)?;

@@ -5,11 +5,20 @@ use std::path::{Path, PathBuf};
 use time::OffsetDateTime;
 use time::format_description::well_known::Rfc3339;
 
-use super::slots::{self, Claim, ClaimRecord, Release, SegmentRecord, Slots};
+use super::read::{Flaw, Rows};
+use super::slots::{self, Claim, ClaimRecord, KnownClaims, SegmentRecord, Slots};
 use super::{
     About, ParticipantId, RecordError, RowLog, StudyIdentity, TrialRow, about, description, files,
     read,
 };
+use crate::config;
+use crate::protocol::Protocol;
+
+/// What a results folder belongs to.
+pub(super) const STUDY_FILE: &str = "study.json";
+
+/// The protocol's file as it was.
+pub(super) const PROTOCOL_FILE: &str = "materials/protocol.toml";
 
 /// An open results folder.
 #[derive(Debug)]
@@ -17,6 +26,7 @@ pub struct Study {
     folder: PathBuf,
     identity: StudyIdentity,
     pilot: bool,
+    known_claims: KnownClaims,
 }
 
 /// A participant's place in the study and the open file of the session.
@@ -48,19 +58,6 @@ pub struct Enrolment {
     pub results: PathBuf,
 }
 
-/// Where one participant stands.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Standing {
-    /// The participant's id.
-    pub participant: String,
-    /// Participant number in the design, from 0.
-    pub slot: u32,
-    /// Trials on record.
-    pub answered: usize,
-    /// Set if the slot was given up.
-    pub released: Option<Release>,
-}
-
 impl Study {
     /// Opens a results folder, making it if it is not there. `protocol_text` is
     /// kept beside the data as the protocol's file is now.
@@ -79,21 +76,52 @@ impl Study {
             folder: folder.to_owned(),
             identity,
             pilot: false,
+            known_claims: KnownClaims::default(),
         };
-        let path = folder.join("study.json");
+        let path = folder.join(STUDY_FILE);
         if !path.exists() {
             // Whoever is first decides what the folder belongs to.
             files::create_whole(&path, &slots::json(&path, &study.identity)?)?;
         }
         study.identity.check_against(folder, &slots::load(&path)?)?;
-        study.keep("materials/protocol.toml", protocol_text.as_bytes())?;
+        study.keep(PROTOCOL_FILE, protocol_text.as_bytes())?;
         let path = folder.join("dataset_description.json");
         let description = description::dataset_description(&study.identity);
         study.keep(
             "dataset_description.json",
             &slots::json(&path, &description)?,
         )?;
+        study.keep(".psychdsignore", description::PSYCHDS_IGNORE.as_bytes())?;
         Ok(study)
+    }
+
+    /// Opens a results folder as it is, without its protocol's file; makes nothing.
+    ///
+    /// # Errors
+    /// [`RecordError`], also if the folder has no `study.json`.
+    pub fn open_existing(folder: &Path) -> Result<Self, RecordError> {
+        let path = folder.join(STUDY_FILE);
+        if !path.is_file() {
+            return Err(RecordError::NoStudy {
+                path: folder.to_owned(),
+            });
+        }
+        Ok(Self {
+            folder: folder.to_owned(),
+            identity: slots::load(&path)?,
+            pilot: false,
+            known_claims: KnownClaims::default(),
+        })
+    }
+
+    /// The protocol as it is kept beside the data.
+    ///
+    /// # Errors
+    /// [`RecordError::Protocol`] if it is not there or cannot be understood.
+    pub fn protocol(&self) -> Result<Protocol, RecordError> {
+        let path = self.folder.join(PROTOCOL_FILE);
+        let text = config::read(&path)?;
+        Ok(Protocol::parse(&path, &text)?)
     }
 
     /// The same folder for try-outs: their rows are marked, their slots are counted apart.
@@ -128,7 +156,7 @@ impl Study {
         check_station(station)?;
         let path = self.data_path(participant);
         // The file comes first: its name is what makes the id unique.
-        let Some(log) = RowLog::create(&path, participant.as_str())? else {
+        let Some(log) = RowLog::create(&path)? else {
             return Err(RecordError::ParticipantExists {
                 participant: participant.to_string(),
                 answered: read::read_rows(&path)?.rows.len(),
@@ -174,35 +202,30 @@ impl Study {
                 answered: rows.rows.len(),
             });
         }
-        let (slots, claim, record) = match self.find_claim(participant)? {
-            Some(found) => found,
-            // Interrupted between making the file and claiming the slot.
-            None => (
-                Slots::new(&self.folder, self.pilot),
-                self.claim(participant, station, now)?,
-                claim_record(participant, station, now),
-            ),
+        let held = match self.held(participant)? {
+            Some(held) => held,
+            None => {
+                // Interrupted between making the file and claiming the slot.
+                self.claim(participant, station, now)?;
+                self.held(participant)?
+                    .ok_or_else(|| unknown(participant))?
+            }
         };
-        if slots.released(claim)?.is_some() {
+        let claim = held.latest();
+        if held.files(claim).released {
             return Err(RecordError::Released {
                 participant: participant.to_string(),
                 slot: claim.slot,
             });
         }
-        let interrupted_utc = last_on_record(&rows.rows, &slots.segments(claim)?, &record);
-        let segment = slots.add_segment(
-            claim,
-            &SegmentRecord {
-                station: station.to_owned(),
-                resumed_utc: iso_8601(now),
-            },
-        )?;
+        let interrupted_utc = last_on_record(&rows.rows, &held.times_utc()?);
+        let segment = held.add_segment(&segment_record(station, now, &rows))?;
         Ok(Enrolment {
             participant: participant.clone(),
             slot: claim.slot,
             session: 1,
             segment,
-            pilot: slots.is_pilot(),
+            pilot: held.slots.is_pilot(),
             station: station.to_owned(),
             rows: rows.rows,
             interrupted_utc,
@@ -213,39 +236,12 @@ impl Study {
         })
     }
 
-    /// Gives a drop-out's slot to the next participant; both stay on record.
-    ///
-    /// # Errors
-    /// [`RecordError`], also if the participant holds no slot or the session is running.
-    pub fn release(
-        &self,
-        participant: &ParticipantId,
-        reason: &str,
-        now: OffsetDateTime,
-    ) -> Result<u32, RecordError> {
-        let path = self.data_path(participant);
-        if !path.exists() {
-            return Err(unknown(participant));
-        }
-        // Held until the end: nobody resumes what is being given up.
-        let _log = RowLog::reopen(&path, participant.as_str())?;
-        let Some((slots, claim, _)) = self.find_claim(participant)? else {
-            return Err(unknown(participant));
-        };
-        let release = Release {
-            reason: reason.to_owned(),
-            released_utc: iso_8601(now),
-        };
-        slots.release(claim, &release)?;
-        Ok(claim.slot)
-    }
-
     /// The slot the next new participant would take.
     ///
     /// # Errors
     /// [`RecordError`] if the folder cannot be read.
     pub fn next_slot(&self) -> Result<u32, RecordError> {
-        let slots = Slots::new(&self.folder, self.pilot);
+        let slots = self.slots(self.pilot);
         slots.next_open().map(|claim| claim.slot)
     }
 
@@ -261,24 +257,6 @@ impl Study {
         read::read_rows(&path).map(|rows| Some(rows.rows.len()))
     }
 
-    /// Everybody who ever held a slot, by slot.
-    ///
-    /// # Errors
-    /// [`RecordError`] if the folder cannot be read.
-    pub fn standings(&self) -> Result<Vec<Standing>, RecordError> {
-        let slots = Slots::new(&self.folder, self.pilot);
-        let stands = |(claim, record): (Claim, ClaimRecord)| {
-            let id = ParticipantId::new(&record.participant)?;
-            Ok(Standing {
-                slot: claim.slot,
-                answered: self.answered(&id)?.unwrap_or(0),
-                released: slots.released(claim)?,
-                participant: record.participant,
-            })
-        };
-        slots.claims()?.into_iter().map(stands).collect()
-    }
-
     /// The results folder.
     #[must_use]
     pub fn folder(&self) -> &Path {
@@ -291,8 +269,16 @@ impl Study {
         &self.identity
     }
 
+    pub(super) fn is_pilot(&self) -> bool {
+        self.pilot
+    }
+
+    pub(super) fn slots(&self, pilot: bool) -> Slots {
+        Slots::new(&self.folder, pilot, KnownClaims::clone(&self.known_claims))
+    }
+
     /// Psych-DS: keys in lower case, values of letters and digits only.
-    fn data_path(&self, participant: &ParticipantId) -> PathBuf {
+    pub(super) fn data_path(&self, participant: &ParticipantId) -> PathBuf {
         let alphanumeric = |c: &char| c.is_ascii_alphanumeric();
         let study: String = self
             .identity
@@ -307,32 +293,36 @@ impl Study {
         ))
     }
 
-    /// The latest claim of a participant, in either series.
-    fn find_claim(
-        &self,
-        participant: &ParticipantId,
-    ) -> Result<Option<(Slots, Claim, ClaimRecord)>, RecordError> {
-        for pilot in [self.pilot, !self.pilot] {
-            let slots = Slots::new(&self.folder, pilot);
-            if let Some((claim, record)) = slots.find(participant.as_str())? {
-                return Ok(Some((slots, claim, record)));
-            }
-        }
-        Ok(None)
-    }
-
     fn claim(
         &self,
         participant: &ParticipantId,
         station: &str,
         now: OffsetDateTime,
     ) -> Result<Claim, RecordError> {
-        let slots = Slots::new(&self.folder, self.pilot);
+        let slots = self.slots(self.pilot);
         slots.claim(&claim_record(participant, station, now))
     }
 }
 
-fn claim_record(participant: &ParticipantId, station: &str, now: OffsetDateTime) -> ClaimRecord {
+/// What one segment's file says of the data file it goes on with.
+fn segment_record(station: &str, now: OffsetDateTime, rows: &Rows) -> SegmentRecord {
+    let lines = |of: fn(Flaw) -> bool| {
+        let found = rows.warnings.iter().filter(move |found| of(found.flaw));
+        found.map(|found| found.line)
+    };
+    SegmentRecord {
+        station: station.to_owned(),
+        resumed_utc: iso_8601(now),
+        ended_torn_line: lines(|flaw| flaw == Flaw::CutOff).next(),
+        damaged_lines: lines(|flaw| flaw != Flaw::Repeated).collect(),
+    }
+}
+
+pub(super) fn claim_record(
+    participant: &ParticipantId,
+    station: &str,
+    now: OffsetDateTime,
+) -> ClaimRecord {
     ClaimRecord {
         participant: participant.to_string(),
         station: station.to_owned(),
@@ -340,7 +330,7 @@ fn claim_record(participant: &ParticipantId, station: &str, now: OffsetDateTime)
     }
 }
 
-fn unknown(participant: &ParticipantId) -> RecordError {
+pub(super) fn unknown(participant: &ParticipantId) -> RecordError {
     RecordError::UnknownParticipant {
         participant: participant.to_string(),
     }
@@ -356,17 +346,12 @@ fn check_station(station: &str) -> Result<(), RecordError> {
     })
 }
 
-/// The latest wall-clock time a session has left on record.
-fn last_on_record(
-    rows: &[TrialRow],
-    segments: &[SegmentRecord],
-    claim: &ClaimRecord,
-) -> Option<OffsetDateTime> {
-    let resumed = segments.iter().map(|segment| segment.resumed_utc.as_str());
+/// The latest wall-clock time a session has left on record; `others_utc` are those of
+/// its claims and segments.
+fn last_on_record(rows: &[TrialRow], others_utc: &[String]) -> Option<OffsetDateTime> {
     let answered = rows.iter().map(|row| row.answered_utc.as_str());
-    resumed
-        .chain(answered)
-        .chain([claim.claimed_utc.as_str()])
+    answered
+        .chain(others_utc.iter().map(String::as_str))
         .filter_map(|utc| OffsetDateTime::parse(utc, &Rfc3339).ok())
         .max()
 }

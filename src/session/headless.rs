@@ -118,14 +118,18 @@ impl Headless<'_> {
             } else {
                 summary.finished += 1;
             }
-            summary.rows += self.session(enrolment, now, &mut report)?;
+            summary.rows += self.sit(enrolment, now, &mut report)?;
             report(Progress::Finished(&participant));
         }
         Ok(summary)
     }
 
-    /// One session to its end; gives the number of rows written.
-    fn session(
+    /// One session of an enrolled participant to its end; gives the number of rows
+    /// written.
+    ///
+    /// # Errors
+    /// [`HeadlessError`]; every row reported before is on disk.
+    pub fn sit(
         &self,
         mut enrolment: Enrolment,
         now: OffsetDateTime,

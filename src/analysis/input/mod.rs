@@ -24,6 +24,8 @@ use trials::Trials;
 pub struct Options {
     /// Count pilot sessions too.
     pub include_pilot: bool,
+    /// Count participants the experimenter has rejected too.
+    pub include_rejected: bool,
 }
 
 /// A layout that is recognised.

@@ -1,6 +1,7 @@
 //! Greyfield's own results: a folder with `study.json` and `data/…_data.csv`, or one such file.
 //! The rows come from [`record`](crate::record), which tests every line's checksum.
 
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 
 use super::Options;
@@ -27,7 +28,7 @@ pub const REQUIRED: &[&str] = &[
 ];
 
 /// Rows that do not count, by reason.
-#[derive(Debug, Default, Clone, Copy)]
+#[derive(Debug, Default)]
 pub struct LeftOut {
     practice: u64,
     catch: u64,
@@ -35,6 +36,10 @@ pub struct LeftOut {
     /// Ratings and rankings.
     no_choice: u64,
     cannot_tell: u64,
+    /// Trials of each rejected participant.
+    rejected: BTreeMap<String, u64>,
+    /// Who was rejected, by results folder: read once.
+    rejections: HashMap<PathBuf, BTreeSet<String>>,
     /// Trials a scripted observer answered; they are used, and reported.
     scripted: u64,
 }
@@ -90,9 +95,10 @@ pub fn read(
     trials.begin_file(path);
     let read = record::read_rows(path)?;
     notes.extend(read.warnings.iter().map(ToString::to_string));
+    let rejected = left_out.rejected_beside(path)?;
     let (mut rows_used, mut rows_left_out) = (0, 0);
     for (row, &line) in read.rows.iter().zip(&read.lines) {
-        if let Some(count) = left_out.reason(row, options) {
+        if let Some(count) = left_out.reason(row, &rejected, options) {
             *count += 1;
             rows_left_out += 1;
             continue;
@@ -121,8 +127,27 @@ pub fn read(
 }
 
 impl LeftOut {
+    /// Who was rejected in the results folder that a data file stands in.
+    fn rejected_beside(&mut self, file: &Path) -> Result<BTreeSet<String>, InputError> {
+        let results = file.parent().unwrap_or(Path::new("")).join("..");
+        if let Some(known) = self.rejections.get(&results) {
+            return Ok(known.clone());
+        }
+        let ids: BTreeSet<String> = record::rejections(&results)?.into_keys().collect();
+        self.rejections.insert(results, ids.clone());
+        Ok(ids)
+    }
+
     /// The count of the reason why a row does not count; `None` if it does.
-    fn reason(&mut self, row: &TrialRow, options: Options) -> Option<&mut u64> {
+    fn reason(
+        &mut self,
+        row: &TrialRow,
+        rejected: &BTreeSet<String>,
+        options: Options,
+    ) -> Option<&mut u64> {
+        if !options.include_rejected && rejected.contains(&row.participant_id) {
+            return Some(self.rejected.entry(row.participant_id.clone()).or_default());
+        }
         match row.phase {
             Phase::Practice => Some(&mut self.practice),
             Phase::Catch => Some(&mut self.catch),
@@ -161,6 +186,15 @@ impl LeftOut {
             if count > 0 {
                 notes.push(format!("{count} {what}."));
             }
+        }
+        if !self.rejected.is_empty() {
+            let ids: Vec<&str> = self.rejected.keys().map(String::as_str).collect();
+            notes.push(format!(
+                "{} rejected participants are left out ({}), {} trials; --include-rejected takes them in.",
+                ids.len(),
+                ids.join(", "),
+                self.rejected.values().sum::<u64>(),
+            ));
         }
         notes
     }

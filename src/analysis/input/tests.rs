@@ -266,9 +266,53 @@ fn a_results_folder_carries_base_orders_and_leaves_out_what_does_not_count() {
     }
     let with_pilot = Options {
         include_pilot: true,
+        ..Options::default()
     };
     let data = read(&[dir.path().to_owned()], with_pilot).unwrap();
     assert_eq!(data.conditions[0].votes, Votes { a: 2, b: 0 });
+}
+
+/// A rejection is a file beside the claim; nothing in the data tells of it.
+#[test]
+fn rejected_participants_are_left_out_and_named() {
+    let dir = results_folder(
+        &[row("P1", 0, "a"), row("P2", 0, "a"), row("P2", 1, "b")],
+        None,
+    );
+    let slots = dir.path().join("slots");
+    std::fs::create_dir(&slots).unwrap();
+    let write = |name: &str, text: &str| std::fs::write(slots.join(name), text).unwrap();
+    for (slot, id) in ["P1", "P2"].iter().enumerate() {
+        write(
+            &format!("slot-000{slot}_claim-1.json"),
+            &format!(r#"{{"participant":"{id}","station":"lab","claimed_utc":""}}"#),
+        );
+    }
+    write(
+        "slot-0001_claim-1_rejected-1.json",
+        r#"{"reason":"slept","rejected_utc":""}"#,
+    );
+    let votes = |options: Options| {
+        let data = read(&[dir.path().to_owned()], options).unwrap();
+        let votes: u32 = data.conditions.iter().map(|c| c.votes.a + c.votes.b).sum();
+        (votes, data.notes)
+    };
+    let (counted, notes) = votes(Options::default());
+    assert_eq!(counted, 1);
+    let note = "1 rejected participants are left out (P2), 2 trials";
+    assert!(notes.iter().any(|n| n.starts_with(note)), "{notes:?}");
+    let everybody = Options {
+        include_rejected: true,
+        ..Options::default()
+    };
+    assert_eq!(votes(everybody).0, 3);
+    write(
+        "slot-0001_claim-1_reinstated-1.json",
+        r#"{"reason":"","reinstated_utc":""}"#,
+    );
+    let (counted, notes) = votes(Options::default());
+    assert_eq!(counted, 3);
+    assert!(!notes.iter().any(|n| n.contains("rejected")), "{notes:?}");
 }
 
 #[test]

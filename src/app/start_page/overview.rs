@@ -2,7 +2,7 @@
 
 use crate::protocol::balance::{Aspect, Balance};
 use crate::protocol::{Condition, PlanError, Protocol, SessionPlan};
-use crate::record::{RecordError, Study, study::Standing};
+use crate::record::{RecordError, Standing, Study};
 
 /// Lines on the participants of a results folder.
 ///

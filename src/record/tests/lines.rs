@@ -122,7 +122,7 @@ fn a_file_cut_off_anywhere_keeps_its_whole_rows_and_takes_the_next() {
 fn a_removed_data_file_is_noticed() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("x_data.csv");
-    let mut log = RowLog::create(&path, "P01").unwrap().unwrap();
+    let mut log = RowLog::create(&path).unwrap().unwrap();
     log.append_row(&row("P01", 0)).unwrap();
     std::fs::remove_file(&path).unwrap();
     let message = log.append_row(&row("P01", 1)).unwrap_err().to_string();
@@ -133,7 +133,7 @@ fn a_removed_data_file_is_noticed() {
 fn a_session_is_open_in_one_place_at_a_time() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("x_data.csv");
-    let log = RowLog::create(&path, "P01").unwrap().unwrap();
+    let log = RowLog::create(&path).unwrap().unwrap();
     assert!(matches!(
         RowLog::reopen(&path, "P01"),
         Err(RecordError::InUse { .. })
@@ -143,7 +143,7 @@ fn a_session_is_open_in_one_place_at_a_time() {
 }
 
 prop_compose! {
-    fn any_row()(
+    pub(crate) fn any_row()(
         station_id in "[^\\p{C}]{1,64}",
         technique_first in "[=+@'\" ,;a-z0-9-]{1,20}",
         times in prop::array::uniform8(prop::option::of(any::<u64>())),

@@ -1,6 +1,8 @@
 //! The promises of the results folder.
 
-mod lines;
+mod audits;
+pub(crate) mod lines;
+mod standings;
 mod studies;
 
 use super::row::SCHEMA_VERSION;
