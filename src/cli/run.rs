@@ -15,9 +15,10 @@ use crate::config;
 use crate::protocol::Protocol;
 use crate::record::RecordError;
 use crate::session::headless::{Headless, HeadlessError, Progress, Summary};
-use crate::session::observer::Scripted;
+use crate::session::observer::{Metric, Needs, Scripted};
 use crate::session::start;
-use crate::stimulus::{Manifest, StimulusSet};
+use crate::stimulus::flip::Viewing;
+use crate::stimulus::{ImageRecord, Manifest, Picture, StimulusSet, quality};
 
 /// Run participant sessions, in a window or with scripted observers.
 ///
@@ -49,7 +50,9 @@ pub struct Run {
     /// No window: scripted observers sit the same sessions in virtual time.
     #[arg(long, requires_all = ["observer", "participants"])]
     pub headless: bool,
-    /// Who answers: random:SEED (a fair coin) or first (always the first image).
+    /// Who answers: random:SEED (a fair coin), first (always the first image), or
+    /// model:SEED[,KEY=VALUE…] (by the images' distance to the truth; keys: metric=flip|error,
+    /// sigma, lapse, bias, participants, truth=LABEL; see docs/observers.md).
     #[arg(long, value_name = "OBSERVER", requires = "headless")]
     pub observer: Option<String>,
     /// How many scripted participants there are to be in the end.
@@ -217,13 +220,8 @@ fn load(folder: &Path, set_path: &Path) -> Result<Manifest, Failure> {
 }
 
 fn headless(args: &Run, prepared: &Prepared, verbosity: Verbosity) -> Result<(), Failure> {
-    let usage = |message: String| Failure::bad_input(anyhow!(message));
-    let scripted: Scripted = args
-        .observer
-        .as_deref()
-        .unwrap_or_default()
-        .parse()
-        .map_err(|message| usage(format!("--observer: {message}")))?;
+    let name = args.observer.as_deref().unwrap_or_default();
+    let scripted = scripted(name, prepared, verbosity)?;
     let participants = args.participants.unwrap_or(1);
     let study = start::open_study(
         &args.results,
@@ -260,6 +258,40 @@ fn headless(args: &Run, prepared: &Prepared, verbosity: Verbosity) -> Result<(),
     }
     summarise(&mut stdout, &summary, args.format, verbosity)?;
     Ok(())
+}
+
+/// The scripted observer of a name. One that asks how the images look has them compared now.
+///
+/// # Errors
+/// Bad input: what was found and what is allowed.
+pub(super) fn scripted(
+    name: &str,
+    prepared: &Prepared,
+    verbosity: Verbosity,
+) -> Result<Scripted, Failure> {
+    let viewing = prepared.protocol.viewing.map(|viewing| Viewing {
+        distance_m: viewing.distance_m.get(),
+        display_width_m: viewing.display_width_m.get(),
+        display_width_px: viewing.display_width_px.get() as f32,
+    });
+    let pixels_per_degree = viewing.unwrap_or_default().pixels_per_degree();
+    let compare = |metric, pairs: &[[&ImageRecord; 2]]| {
+        let measure = |first: &Picture, second: &Picture| match metric {
+            Metric::Flip => quality::flip_mean(first, second, pixels_per_degree),
+            Metric::Error => Ok(quality::lightness_rmse(first, second)?),
+        };
+        let bar = verbosity.progress(pairs.len() as u64);
+        let found = quality::distances(&prepared.stimuli, pairs, &measure, &|| bar.inc(1));
+        bar.finish_and_clear();
+        found.map_err(|error| format!("images it can compare: {error}"))
+    };
+    let needs = Needs {
+        protocol: &prepared.protocol,
+        manifest: &prepared.manifest,
+        distances: &compare,
+    };
+    Scripted::new(name, &needs)
+        .map_err(|message| Failure::bad_input(anyhow!("--observer: {message}")))
 }
 
 /// A protocol without a plan is the user's to mend, too.
