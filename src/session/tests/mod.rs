@@ -3,6 +3,7 @@
 mod pages;
 mod procedures;
 mod random;
+mod replay;
 mod rows;
 mod screens;
 
