@@ -15,7 +15,6 @@ use super::participant::{
 };
 use super::pictures::Pictures;
 use super::stimulus_view::{self, SizePx};
-use crate::protocol::config::GreyArea;
 use crate::protocol::{Pause, Protocol, Words};
 use crate::record::InputDevice;
 use crate::session::{Effect, Event, Screen, Session, SessionTime};
@@ -169,12 +168,7 @@ impl Sitting {
     /// Grey level behind everything (8-bit sRGB).
     #[must_use]
     pub fn surround(&self) -> u8 {
-        let grey = &self.protocol.grey;
-        match grey.area {
-            GreyArea::Screen => grey.level_srgb.get(),
-            // Black, as a display is where it shows nothing.
-            GreyArea::Image => 0,
-        }
+        grey::surround(&self.protocol.grey)
     }
 
     fn give(&mut self, (event, device): Given, at: SessionTime) {

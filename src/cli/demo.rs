@@ -133,7 +133,7 @@ fn observe(
     verbosity: Verbosity,
 ) -> Result<(), Failure> {
     let prepared = session::prepare(protocol, Some(stimuli))?;
-    let scripted = session::scripted(OBSERVER, &prepared, verbosity)?;
+    let scripted = super::observer::scripted(OBSERVER, &prepared, verbosity)?;
     let study = start::open_study(
         results,
         &prepared.protocol,
