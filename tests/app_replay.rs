@@ -31,9 +31,30 @@ struct Viewing {
     study: Tiny,
 }
 
+/// A scripted observer reads no pages; a person takes this long over each.
+const PAGE_NS: u64 = 3_000_000_000;
+
+fn later(row: &mut TrialRow, by_ns: u64) {
+    for time in [
+        &mut row.first_onset_ns,
+        &mut row.first_offset_ns,
+        &mut row.grey_onset_ns,
+        &mut row.grey_offset_ns,
+        &mut row.second_onset_ns,
+        &mut row.second_offset_ns,
+        &mut row.question_onset_ns,
+        &mut row.response_ns,
+    ] {
+        *time = time.map(|ns| ns + by_ns);
+    }
+}
+
 impl Viewing {
     fn of(study: Tiny) -> Self {
-        let rows = recorded::rows(&study, "random:4");
+        let mut rows = recorded::rows(&study, "random:4");
+        for (row, pages) in rows.iter_mut().zip(1..) {
+            later(row, pages * PAGE_NS);
+        }
         let protocol = study.protocol();
         let replay = Replay::new(&rows, &protocol, &study.manifest).expect("a replay");
         let clock_ns = Rc::new(Cell::new(0));

@@ -95,14 +95,14 @@ fn words(replaying: &Replaying, screen: ReplayScreen) -> String {
             format!("{which}: {technique}")
         }
         Shown::Grey => "grey".to_owned(),
-        Shown::Question {
-            answered: false, ..
-        } => "question".to_owned(),
-        Shown::Question { answered: true, .. } => {
+        // Already before it is given: where the next trial starts by itself the answer stands
+        // for no time at all.
+        Shown::Question { .. } => {
             let after = trial.row.response_time_ms.unwrap_or(0.0) / 1000.0;
             let answer = picture::answer(trial, &replaying.protocol);
-            format!("answer after {after:.2} s: {answer}")
+            format!("question, answer after {after:.2} s: {answer}")
         }
+        _ if replaying.at_ns < trial.end_ns => "not on record".to_owned(),
         Shown::Between | Shown::Gap => {
             "over; the pages between trials are not on record".to_owned()
         }
@@ -142,7 +142,10 @@ fn time(ui: &mut Ui, replay: &Replay, at_ns: u64) -> Option<Wish> {
         let (from, to) = (x(trial.begin_ns), x(trial.end_ns));
         // A trial of a moment is still to be seen.
         let stretch = Rect::from_x_y_ranges(from..=to.max(from + 1.0), rect.y_range().shrink(3.0));
-        painter.rect_filled(stretch, 0.0, Color32::from_gray(140));
+        painter.rect_filled(stretch, 0.0, Color32::from_gray(120));
+        // Two trials may follow each other without a moment between them.
+        let begin = Rect::from_x_y_ranges(from..=from + 1.0, rect.y_range());
+        painter.rect_filled(begin, 0.0, Color32::from_gray(220));
     }
     let now = Rect::from_center_size(pos2(x(at_ns), rect.center().y), vec2(3.0, HEIGHT));
     painter.rect_filled(now, 0.0, Color32::WHITE);

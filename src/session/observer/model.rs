@@ -95,12 +95,12 @@ impl Options {
     }
 }
 
-/// About what parts one technique's image from another's in the sets that come with Greyfield,
-/// so that effects are neither nothing nor everything.
+/// The pairs of 2010 are 0.03 to 0.25 (FLIP) and 1 to 8 (lightness) apart: these make effects
+/// that are neither nothing nor everything.
 fn default_sigma(metric: Metric) -> f64 {
     match metric {
-        Metric::Flip => 0.05,
-        Metric::Error => 3.0,
+        Metric::Flip => 0.15,
+        Metric::Error => 5.0,
     }
 }
 

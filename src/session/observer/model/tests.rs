@@ -375,7 +375,7 @@ fn bad_options_say_what_is_needed() {
     let options = Options::parse("3,metric=error,bias=-0.5,truth=traced").unwrap();
     assert_eq!(
         (options.seed, options.metric, options.sigma),
-        (3, Metric::Error, 3.0)
+        (3, Metric::Error, 5.0)
     );
     assert_eq!(
         (options.bias, options.truth.as_deref()),
