@@ -225,3 +225,74 @@ fn an_image_that_is_not_the_one_shown_is_not_shown() {
     assert!(viewing.says("cannot be shown as the participant saw it"));
     assert!(viewing.says("has changed since it was made"));
 }
+
+/// The study with the text of another protocol, without what it says of its own images.
+fn under(pairs: usize, protocol: &str) -> Tiny {
+    let study = Tiny::new(pairs, SIZE_PX);
+    let text = protocol.replace("[practice]\nconditions = [\"shapes-white\"]", "");
+    std::fs::write(study.path("tiny.toml"), text).expect("the protocol is written");
+    study
+}
+
+/// Both versions at once and whole, first without numbers, then with those that were given.
+#[test]
+fn a_ranking_shows_all_its_images_and_then_their_order() {
+    let protocol = include_str!("../protocols/yu-2009-ranking.toml");
+    let mut viewing = Viewing::of(under(1, protocol));
+    viewing.press(Key::ArrowRight);
+    assert_eq!(Some(viewing.at_ns()), viewing.rows[0].question_onset_ns);
+    let screen = viewing.screen();
+    let shown: Vec<_> = viewing.study.manifest.images().collect();
+    assert_eq!(shown.len(), 2);
+    for image in shown {
+        let picture = viewing.study.rgba8(image);
+        let row = 4 * SIZE_PX[0] as usize;
+        let is_at = |x: u32, y: u32| {
+            (0..SIZE_PX[1]).all(|line| {
+                let from = 4 * ((y + line) * screen.width() + x) as usize;
+                let expected = &picture[line as usize * row..][..row];
+                &screen.as_raw()[from..][..row] == expected
+            })
+        };
+        let (width, height) = (screen.width() - SIZE_PX[0], screen.height() - SIZE_PX[1]);
+        let found = (0..height).any(|y| (0..width).any(|x| is_at(x, y)));
+        assert!(found, "{}", image.technique);
+    }
+    assert!(viewing.says("1: –") && viewing.says("2: –"));
+    viewing.press(Key::ArrowRight);
+    let row = &viewing.rows[0];
+    let is_as_shown = row.ranking == row.techniques_shown;
+    let numbers = if is_as_shown {
+        ["1: 1", "2: 2"]
+    } else {
+        ["1: 2", "2: 1"]
+    };
+    assert!(
+        numbers.iter().all(|number| viewing.says(number)),
+        "{numbers:?}"
+    );
+}
+
+#[test]
+fn a_rating_shows_the_image_and_then_the_scales_with_their_points() {
+    let protocol = include_str!("../protocols/kozlowski-kautz-2007.toml");
+    let mut viewing = Viewing::of(under(1, protocol));
+    viewing.press(Key::H);
+    viewing.press(Key::ArrowRight);
+    assert_eq!(Some(viewing.at_ns()), viewing.rows[0].grey_onset_ns);
+    viewing.press(Key::ArrowRight);
+    let hash = &viewing.rows[0].first_image_sha256;
+    let mut images = viewing.study.manifest.images();
+    let image = images
+        .find(|image| image.sha256 == *hash)
+        .expect("the image");
+    let picture = viewing.study.rgba8(image);
+    assert_picture(&viewing.screen(), &picture);
+    viewing.press(Key::ArrowRight);
+    assert!(viewing.says("How realistic did it look?"));
+    let open = viewing.screen();
+    viewing.press(Key::ArrowRight);
+    assert_ne!(viewing.screen(), open, "the points are marked");
+    viewing.press(Key::H);
+    assert!(viewing.says(&viewing.rows[0].ratings.clone()));
+}

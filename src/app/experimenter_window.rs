@@ -17,6 +17,9 @@ use super::{AppError, START_PAGE, check_display, theme, window};
 /// Size of the cost panel's window, points: controls beside a picture of 640 columns and more.
 const TUNER: [u32; 2] = [1440, 900];
 
+/// Height of a replay's bar of time with its controls, points.
+const REPLAY_BAR: u32 = 64;
+
 /// Opens the browser on a folder of stimuli and runs until its window is closed.
 ///
 /// # Errors
@@ -50,7 +53,9 @@ pub fn replay(mut replaying: Replaying) -> Result<(), AppError> {
     let images = || trials.iter().flat_map(|trial| &trial.images);
     let width = images().map(|image| image.width_px).max().unwrap_or(0);
     let height = images().map(|image| image.height_px).max().unwrap_or(0);
-    let size = [START_PAGE[0].max(width), START_PAGE[1].max(height)];
+    // The images stand in the middle, and the bar of time under them.
+    let with_bar = height + 2 * REPLAY_BAR;
+    let size = [START_PAGE[0].max(width), START_PAGE[1].max(with_bar)];
     let title = trials.first().map_or_else(String::new, |trial| {
         format!("Greyfield: replay of {}", trial.row.participant_id)
     });

@@ -7,7 +7,7 @@ use greyfield::session::observer::{Needs, Scripted};
 use greyfield::session::start;
 use time::OffsetDateTime;
 
-use crate::support::{PROTOCOL, Tiny};
+use crate::support::Tiny;
 
 /// Who answers, of a name such as `random:1`; nobody compares images for it.
 pub fn observer(study: &Tiny, protocol: &Protocol, name: &str) -> Scripted {
@@ -23,7 +23,8 @@ pub fn observer(study: &Tiny, protocol: &Protocol, name: &str) -> Scripted {
 pub fn rows(study: &Tiny, name: &str) -> Vec<TrialRow> {
     let protocol = study.protocol();
     let results = study.path("results");
-    let open = start::open_study(&results, &protocol, PROTOCOL, &study.manifest).expect("a study");
+    let text = std::fs::read_to_string(study.path("tiny.toml")).expect("the protocol");
+    let open = start::open_study(&results, &protocol, &text, &study.manifest).expect("a study");
     let headless = Headless {
         study: &open,
         protocol: &protocol,

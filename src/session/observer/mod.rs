@@ -71,6 +71,9 @@ pub trait Observer: fmt::Debug {
     fn behave(&self, question: &Question<'_>) -> Behaviour;
 }
 
+/// An observer, or what it needs, as the end of a sentence.
+pub type Made = Result<Box<dyn Observer>, String>;
+
 /// A kind of observer that `--observer` can name.
 #[derive(Debug)]
 pub struct Kind {
@@ -80,9 +83,8 @@ pub struct Kind {
     pub argument: &'static str,
     /// What it does, in one sentence.
     pub summary: &'static str,
-    /// Makes one from what stands behind the colon; the error says what it needs, as the end of
-    /// a sentence.
-    pub make: fn(&str, &Needs<'_>) -> Result<Box<dyn Observer>, String>,
+    /// Makes one from what stands behind the colon.
+    pub make: fn(&str, &Needs<'_>) -> Made,
 }
 
 /// Every kind of observer.

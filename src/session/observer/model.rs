@@ -46,7 +46,7 @@ impl Options {
         let mut parts = argument.split(',');
         let seed = parts.next().unwrap_or_default();
         let seed = seed.parse().map_err(|_| {
-            format!("a whole number from 0 behind the colon, then options such as sigma=0.05 ({KEYS}) after commas; not {seed:?}")
+            format!("a whole number from 0 behind the colon, then options such as sigma=0.1 ({KEYS}) after commas; not {seed:?}")
         })?;
         let mut given: Vec<(&str, &str)> = Vec::new();
         for part in parts {

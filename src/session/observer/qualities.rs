@@ -51,11 +51,14 @@ impl fmt::Debug for Needs<'_> {
     }
 }
 
+/// Condition and technique.
+type Key = (String, String);
+
 /// Quality of every image that a protocol shows: minus its distance to the truth.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Qualities {
     /// By condition and technique.
-    table: BTreeMap<(String, String), f64>,
+    table: BTreeMap<Key, f64>,
 }
 
 impl Qualities {
@@ -85,7 +88,7 @@ impl Qualities {
             start::exhibits(needs.protocol, manifest).map_err(|error| error.to_string())?;
         let mut asked: Vec<[&ImageRecord; 2]> = Vec::new();
         // Where each entry's distance is found; images of the same bytes have none.
-        let mut entries: Vec<((String, String), Option<usize>)> = Vec::new();
+        let mut entries: Vec<(Key, Option<usize>)> = Vec::new();
         for exhibit in &exhibits {
             for (&at, technique) in exhibit.images.iter().zip(&exhibit.condition.techniques) {
                 let compared = compared(needs, exhibit, at, truth)

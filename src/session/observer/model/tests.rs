@@ -350,7 +350,7 @@ fn ratings_stay_on_their_scale() {
 #[test]
 fn bad_options_say_what_is_needed() {
     for (argument, parts) in [
-        ("", ["whole number", "sigma=0.05"]),
+        ("", ["whole number", "sigma=0.1"]),
         ("x", ["whole number", "\"x\""]),
         ("1,", ["KEY=VALUE", "\"\""]),
         ("1,sigma", ["KEY=VALUE", "\"sigma\""]),
