@@ -74,6 +74,72 @@ fn the_first_observer_always_takes_the_first_image() {
     }
 }
 
+/// The second image of each pair stands for the truth, and the first is nothing like it.
+#[test]
+fn the_model_takes_what_is_nearer_to_the_truth() {
+    let study = TinyStudy::new();
+    let chosen = |results: &str, observer: &str| {
+        let results = study.path(results);
+        let output = study.run(&results, observer, 4);
+        assert!(output.status.success(), "{}", stderr(&output));
+        read_folder(&results).unwrap().rows
+    };
+    for (results, metric) in [("a", "flip"), ("b", "error")] {
+        let rows = chosen(results, &format!("model:1,metric={metric},sigma=0.001"));
+        assert_eq!(rows.len(), 4 * TRIALS);
+        for row in rows {
+            assert_eq!(row.chosen_technique.as_deref(), Some("blizzard24"));
+        }
+    }
+    for row in chosen("c", "model:1,sigma=0.001,truth=none") {
+        assert_eq!(row.chosen_technique.as_deref(), Some("none"));
+    }
+    for row in chosen("d", "model:1,sigma=0.001,bias=100") {
+        assert_eq!(row.response, Some(Position::First.into()));
+    }
+}
+
+/// What a replay would show wrongly, it refuses; the message says what to give.
+#[test]
+fn a_replay_asks_for_what_was_shown() {
+    let study = TinyStudy::new();
+    let results = study.path("results");
+    assert!(study.run(&results, "first", 1).status.success());
+    let data = std::fs::read_dir(results.join("data")).unwrap();
+    let session = data.map(|entry| entry.unwrap().path()).next().unwrap();
+    let refused = |arguments: &[&std::ffi::OsStr], parts: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_greyfield"))
+            .args(["run", "--replay"])
+            .args(arguments)
+            .output()
+            .unwrap();
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        for part in parts {
+            assert!(message.contains(part), "{part:?} not in {message:?}");
+        }
+    };
+    let (session, images) = (session.as_os_str(), study.path("images"));
+    let stimuli = "--stimuli".as_ref();
+    refused(&[session], &["materials/protocol.toml", "--stimuli"]);
+    let elsewhere = study.path("elsewhere.csv");
+    std::fs::copy(session, &elsewhere).unwrap();
+    refused(
+        &[elsewhere.as_os_str(), stimuli, images.as_os_str()],
+        &["elsewhere.csv", "no materials/protocol.toml"],
+    );
+    // The manifest of other images.
+    let path = images.join("manifest.json");
+    let manifest = std::fs::read_to_string(&path).unwrap();
+    let row = read_folder(&results).unwrap().rows.swap_remove(0);
+    let hash = row.first_image_sha256;
+    std::fs::write(&path, manifest.replace(&hash, &"f".repeat(64))).unwrap();
+    refused(
+        &[session, stimuli, images.as_os_str()],
+        &[&row.row_id, &hash, "--stimuli"],
+    );
+}
+
 #[test]
 fn running_again_adds_nothing_and_more_participants_add_theirs() {
     let study = TinyStudy::new();
@@ -148,7 +214,23 @@ fn bad_input_is_said_before_anything_is_written() {
     refused(
         &|_| {},
         "psychic",
-        &["--observer", "psychic", "random:SEED", "first"],
+        &[
+            "--observer",
+            "psychic",
+            "random:SEED",
+            "first",
+            "model:SEED",
+        ],
+    );
+    refused(
+        &|_| {},
+        "model:1,sigma=0",
+        &["--observer", "model:1,sigma=0", "above 0 for sigma"],
+    );
+    refused(
+        &|_| {},
+        "model:1,truth=traced",
+        &["truth=traced", "blizzard24, none"],
     );
     refused(
         &|study| std::fs::remove_file(study.path("images/manifest.json")).unwrap(),

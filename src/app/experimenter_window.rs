@@ -1,5 +1,5 @@
-//! Windows of their own for what is the experimenter's alone: the stimulus browser, and the cost
-//! panel.
+//! Windows of their own for what is the experimenter's alone: the stimulus browser, the cost panel,
+//! and replays.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -10,11 +10,15 @@ use eframe::egui::{Context, Ui};
 use winit::window::Window;
 
 use super::browser::{Browser, Folder};
+use super::replay::Replaying;
 use super::tuner::{Tuner, Tuning};
 use super::{AppError, START_PAGE, check_display, theme, window};
 
 /// Size of the cost panel's window, points: controls beside a picture of 640 columns and more.
 const TUNER: [u32; 2] = [1440, 900];
+
+/// Height of a replay's bar of time with its controls, points.
+const REPLAY_BAR: u32 = 64;
 
 /// Opens the browser on a folder of stimuli and runs until its window is closed.
 ///
@@ -38,6 +42,24 @@ pub fn tune(tuning: Tuning) -> Result<(), AppError> {
         let mut tuner = Tuner::new(ctx, tuning);
         Box::new(move |ui| tuner.ui(ui))
     })
+}
+
+/// Opens a window on a replay, large enough for its images, and runs until it is closed.
+///
+/// # Errors
+/// As [`browse`].
+pub fn replay(mut replaying: Replaying) -> Result<(), AppError> {
+    let trials = &replaying.replay().trials;
+    let images = || trials.iter().flat_map(|trial| &trial.images);
+    let width = images().map(|image| image.width_px).max().unwrap_or(0);
+    let height = images().map(|image| image.height_px).max().unwrap_or(0);
+    // The images stand in the middle, and the bar of time under them.
+    let with_bar = height + 2 * REPLAY_BAR;
+    let size = [START_PAGE[0].max(width), START_PAGE[1].max(with_bar)];
+    let title = trials.first().map_or_else(String::new, |trial| {
+        format!("Greyfield: replay of {}", trial.row.participant_id)
+    });
+    run(&title, size, move |_| Box::new(move |ui| replaying.ui(ui)))
 }
 
 /// What a window shows.

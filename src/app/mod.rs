@@ -12,6 +12,7 @@
 //! sitting      one session on the screen: input in, picture out, rows to disk
 //! participant  one file a screen
 //! browser      the stimuli, for the experimenter alone
+//! replay       a recorded session again, for the experimenter alone
 //! tuner        what a technique costs, live, for the experimenter alone
 //! stage        pictures under one zoom, in both
 //! ```
@@ -31,6 +32,7 @@ pub mod participant;
 pub mod pictures;
 pub mod present_feedback;
 pub mod readiness;
+pub mod replay;
 pub mod sitting;
 pub mod stage;
 pub mod start_page;
@@ -46,7 +48,7 @@ use std::rc::Rc;
 pub use application::{Application, Setup};
 pub use display::available as display_available;
 pub use error::AppError;
-pub use experimenter_window::{browse, tune};
+pub use experimenter_window::{browse, replay, tune};
 
 /// Smallest window the start page reads well in, points.
 const START_PAGE: [u32; 2] = [1280, 800];

@@ -18,7 +18,6 @@ use super::participant::{
 use super::pictures::Pictures;
 use super::present_feedback::Displayed;
 use super::stimulus_view::{self, SizePx};
-use crate::protocol::config::GreyArea;
 use crate::protocol::{Pause, Protocol, Words};
 use crate::record::InputDevice;
 use crate::session::{Effect, Event, FrameFigures, FrameMeter, Screen, Session, SessionTime};
@@ -243,12 +242,7 @@ impl Sitting {
     /// Grey level behind everything (8-bit sRGB).
     #[must_use]
     pub fn surround(&self) -> u8 {
-        let grey = &self.protocol.grey;
-        match grey.area {
-            GreyArea::Screen => grey.level_srgb.get(),
-            // Black, as a display is where it shows nothing.
-            GreyArea::Image => 0,
-        }
+        grey::surround(&self.protocol.grey)
     }
 
     /// Frames follow each other without a break while a picture or a timed screen

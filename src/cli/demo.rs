@@ -68,7 +68,7 @@ pub fn run(args: &Demo, verbosity: Verbosity) -> Result<(), Failure> {
         "results"
     });
     if scripted {
-        observe(&protocol, &stimuli, &results, args.participants)?;
+        observe(&protocol, &stimuli, &results, args.participants, verbosity)?;
     } else {
         println!("Opening the application; close its window when you are done.");
         session::window(&protocol, Some(&stimuli), &results, "demo", true)?;
@@ -130,11 +130,10 @@ fn observe(
     stimuli: &Path,
     results: &Path,
     participants: u32,
+    verbosity: Verbosity,
 ) -> Result<(), Failure> {
     let prepared = session::prepare(protocol, Some(stimuli))?;
-    let scripted = OBSERVER
-        .parse()
-        .map_err(|message: String| anyhow!(message))?;
+    let scripted = super::observer::scripted(OBSERVER, &prepared, verbosity)?;
     let study = start::open_study(
         results,
         &prepared.protocol,

@@ -9,13 +9,13 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 use time::OffsetDateTime;
 
-use super::{Failure, Verbosity};
+use super::observer::scripted;
+use super::{Failure, Verbosity, replay};
 use crate::app;
 use crate::config;
 use crate::protocol::Protocol;
 use crate::record::RecordError;
 use crate::session::headless::{Headless, HeadlessError, Progress, Summary};
-use crate::session::observer::Scripted;
 use crate::session::start;
 use crate::stimulus::{Manifest, StimulusSet};
 
@@ -28,12 +28,15 @@ use crate::stimulus::{Manifest, StimulusSet};
     after_help = "Example:\n  greyfield run protocols/thesis-2010.toml --results results/thesis --headless --observer random:1 --participants 28"
 )]
 pub struct Run {
-    /// The protocol.
-    #[arg(value_name = "PROTOCOL.toml")]
-    pub protocol: PathBuf,
+    /// The protocol [with --replay, default: materials/protocol.toml beside the data].
+    #[arg(value_name = "PROTOCOL.toml", required_unless_present = "replay")]
+    pub protocol: Option<PathBuf>,
     /// Folder for the data, of this protocol alone; made if it is not there.
-    #[arg(long, value_name = "DIR")]
-    pub results: PathBuf,
+    #[arg(long, value_name = "DIR", required_unless_present = "replay")]
+    pub results: Option<PathBuf>,
+    /// Show a recorded session again, from its data file; nothing is written.
+    #[arg(long, value_name = "SESSION.csv", conflicts_with_all = ["results", "pilot", "windowed", "headless"])]
+    pub replay: Option<PathBuf>,
     /// Folder of the rendered stimuli [default: beside the stimulus set's config, named like it].
     #[arg(long, value_name = "DIR")]
     pub stimuli: Option<PathBuf>,
@@ -49,7 +52,9 @@ pub struct Run {
     /// No window: scripted observers sit the same sessions in virtual time.
     #[arg(long, requires_all = ["observer", "participants"])]
     pub headless: bool,
-    /// Who answers: random:SEED (a fair coin) or first (always the first image).
+    /// Who answers: random:SEED (a fair coin), first (always the first image), or
+    /// model:SEED[,KEY=VALUE…] (by the images' distance to the truth; keys: metric=flip|error,
+    /// sigma, lapse, bias, participants, truth=LABEL; see docs/observers.md).
     #[arg(long, value_name = "OBSERVER", requires = "headless")]
     pub observer: Option<String>,
     /// How many scripted participants there are to be in the end.
@@ -86,14 +91,24 @@ pub struct Prepared {
 /// # Errors
 /// Bad input (exit code 2): protocol, stimuli, names. Otherwise the disk.
 pub fn run(args: &Run, verbosity: Verbosity) -> Result<(), Failure> {
+    let stimuli = args.stimuli.as_deref();
+    if let Some(session) = &args.replay {
+        return replay::run(session, args.protocol.as_deref(), stimuli);
+    }
+    // clap asks for both where nothing is replayed.
+    let (Some(protocol), Some(results)) = (&args.protocol, &args.results) else {
+        return Err(Failure::bad_input(anyhow!(
+            "PROTOCOL.toml and --results are needed"
+        )));
+    };
     if args.headless {
-        let prepared = prepare(&args.protocol, args.stimuli.as_deref())?;
-        return headless(args, &prepared, verbosity);
+        let prepared = prepare(protocol, stimuli)?;
+        return headless(args, &prepared, results, verbosity);
     }
     open_window(&InWindow {
-        protocol: &args.protocol,
-        stimuli: args.stimuli.as_deref(),
-        results: &args.results,
+        protocol,
+        stimuli,
+        results,
         station: &args.station,
         pilot: args.pilot,
         windowed: args.windowed,
@@ -180,7 +195,7 @@ pub fn prepare(protocol_path: &Path, stimuli: Option<&Path>) -> Result<Prepared,
 }
 
 /// The images of a set where `greyfield render` puts them, drawn from the set as it is now.
-fn rendered(set_path: &Path) -> Result<(Manifest, PathBuf), Failure> {
+pub(super) fn rendered(set_path: &Path) -> Result<(Manifest, PathBuf), Failure> {
     let set = StimulusSet::load(set_path).map_err(Failure::bad_input)?;
     let folder = set.default_folder();
     let manifest = load(&folder, set_path)?;
@@ -216,17 +231,17 @@ fn load(folder: &Path, set_path: &Path) -> Result<Manifest, Failure> {
     )))
 }
 
-fn headless(args: &Run, prepared: &Prepared, verbosity: Verbosity) -> Result<(), Failure> {
-    let usage = |message: String| Failure::bad_input(anyhow!(message));
-    let scripted: Scripted = args
-        .observer
-        .as_deref()
-        .unwrap_or_default()
-        .parse()
-        .map_err(|message| usage(format!("--observer: {message}")))?;
+fn headless(
+    args: &Run,
+    prepared: &Prepared,
+    results: &Path,
+    verbosity: Verbosity,
+) -> Result<(), Failure> {
+    let name = args.observer.as_deref().unwrap_or_default();
+    let scripted = scripted(name, prepared, verbosity)?;
     let participants = args.participants.unwrap_or(1);
     let study = start::open_study(
-        &args.results,
+        results,
         &prepared.protocol,
         &prepared.protocol_text,
         &prepared.manifest,

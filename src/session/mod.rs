@@ -12,6 +12,7 @@ pub mod headless;
 pub mod info;
 pub mod machine;
 pub mod observer;
+pub mod replay;
 pub mod screen;
 pub mod start;
 #[cfg(test)]

@@ -12,6 +12,7 @@ pub mod pair_check;
 mod plane;
 pub mod produce;
 pub mod progress;
+pub mod quality;
 pub mod set;
 pub mod sheet;
 pub mod ssim;

@@ -15,6 +15,12 @@ use crate::session::{Answer, Event};
 pub struct Draft(Vec<usize>);
 
 impl Draft {
+    /// Places as they are on record.
+    #[must_use]
+    pub fn of(places: Vec<usize>) -> Self {
+        Self(places)
+    }
+
     /// Numbers a picture, or takes its number and the later ones back.
     fn toggle(&mut self, place: usize) {
         match self.0.iter().position(|&known| known == place) {

@@ -16,6 +16,12 @@ const POINT: Vec2 = vec2(64.0, 52.0);
 pub struct Draft(Vec<Option<u32>>);
 
 impl Draft {
+    /// Points as they are on record.
+    #[must_use]
+    pub fn of(points: Vec<Option<u32>>) -> Self {
+        Self(points)
+    }
+
     fn whole(&self) -> Option<Event> {
         let ratings: Option<Vec<u32>> = self.0.iter().copied().collect();
         Some(Event::Answer(Answer::Ratings(ratings?)))

@@ -10,7 +10,7 @@ pub const FIRST: Kind = Kind {
     name: "first",
     argument: "",
     summary: "chooses the image shown first, rates all alike, ranks as shown, after a second each",
-    make: |argument| {
+    make: |argument, _| {
         if argument.is_empty() {
             Ok(Box::new(First))
         } else {

@@ -2,12 +2,16 @@
 //! virtual time. One file an observer, one line in [`KINDS`].
 
 mod first;
+mod model;
+mod qualities;
 mod random;
 
 use std::fmt;
-use std::str::FromStr;
+
+pub use qualities::{Distances, Metric, Needs, Qualities};
 
 use super::Answer;
+use crate::digest;
 use crate::protocol::procedure::{Ask, Step};
 use crate::protocol::{Protocol, SessionPlan, Trial};
 
@@ -67,6 +71,9 @@ pub trait Observer: fmt::Debug {
     fn behave(&self, question: &Question<'_>) -> Behaviour;
 }
 
+/// An observer, or what it needs, as the end of a sentence.
+pub type Made = Result<Box<dyn Observer>, String>;
+
 /// A kind of observer that `--observer` can name.
 #[derive(Debug)]
 pub struct Kind {
@@ -77,11 +84,11 @@ pub struct Kind {
     /// What it does, in one sentence.
     pub summary: &'static str,
     /// Makes one from what stands behind the colon.
-    pub make: fn(&str) -> Result<Box<dyn Observer>, String>,
+    pub make: fn(&str, &Needs<'_>) -> Made,
 }
 
 /// Every kind of observer.
-pub const KINDS: &[&Kind] = &[&random::RANDOM, &first::FIRST];
+pub const KINDS: &[&Kind] = &[&random::RANDOM, &first::FIRST, &model::MODEL];
 
 /// An observer and the name it was made from.
 #[derive(Debug)]
@@ -93,22 +100,11 @@ pub struct Scripted {
 }
 
 impl Scripted {
-    /// Participant id of the `number`th such observer, from 1: `random1p0001`.
-    #[must_use]
-    pub fn participant_id(&self, number: u32) -> String {
-        let plain: String = self
-            .name
-            .chars()
-            .filter(char::is_ascii_alphanumeric)
-            .collect();
-        format!("{plain}p{number:04}")
-    }
-}
-
-impl FromStr for Scripted {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
+    /// The observer of a name such as `random:1`.
+    ///
+    /// # Errors
+    /// What was found and what is allowed.
+    pub fn new(text: &str, needs: &Needs<'_>) -> Result<Self, String> {
         let (name, argument) = text.split_once(':').unwrap_or((text, ""));
         let Some(kind) = KINDS.iter().find(|kind| kind.name == name) else {
             let allowed: Vec<String> = KINDS.iter().map(ToString::to_string).collect();
@@ -117,12 +113,29 @@ impl FromStr for Scripted {
                 allowed.join(" or ")
             ));
         };
-        let observer = (kind.make)(argument)
+        let observer = (kind.make)(argument, needs)
             .map_err(|message| format!("found {text:?}, {kind} needs {message}"))?;
         Ok(Self {
             name: text.to_owned(),
             observer,
         })
+    }
+
+    /// Participant id of the `number`th such observer, from 1: `random1p0001`. A name with
+    /// options has a checksum in their place, so that two observers are never one participant.
+    #[must_use]
+    pub fn participant_id(&self, number: u32) -> String {
+        let plain = |text: &str| -> String {
+            let letters = text.chars().filter(char::is_ascii_alphanumeric);
+            letters.collect()
+        };
+        match self.name.split_once(',') {
+            None => format!("{}p{number:04}", plain(&self.name)),
+            Some((head, _)) => {
+                let checksum = digest::sha256_hex(self.name.as_bytes());
+                format!("{}x{}p{number:04}", plain(head), &checksum[..8])
+            }
+        }
     }
 }
 
@@ -137,33 +150,4 @@ impl fmt::Display for Kind {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn observers_are_named_as_on_the_command_line() {
-        let random: Scripted = "random:17".parse().unwrap();
-        assert_eq!(random.participant_id(3), "random17p0003");
-        assert!("first".parse::<Scripted>().is_ok());
-    }
-
-    #[test]
-    fn wrong_names_say_what_is_allowed() {
-        for text in [
-            "last",
-            "random",
-            "random:",
-            "random:x",
-            "random:-1",
-            "first:1",
-            "",
-        ] {
-            let message = text.parse::<Scripted>().unwrap_err();
-            assert!(message.contains(&format!("{text:?}")), "{message}");
-            assert!(
-                message.contains("random:SEED") || message.contains("first needs"),
-                "{message}"
-            );
-        }
-    }
-}
+mod tests;

@@ -13,7 +13,7 @@ pub const RANDOM: Kind = Kind {
     name: "random",
     argument: "SEED",
     summary: "chooses, rates and ranks by chance, after some seconds each",
-    make: |argument| match argument.parse() {
+    make: |argument, _| match argument.parse() {
         Ok(seed) => Ok(Box::new(Random { seed })),
         Err(_) => Err("a whole number from 0 behind the colon".to_owned()),
     },

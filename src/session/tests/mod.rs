@@ -4,6 +4,7 @@ mod onsets;
 mod pages;
 mod procedures;
 mod random;
+mod replay;
 mod rows;
 mod screens;
 
