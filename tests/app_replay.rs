@@ -281,10 +281,11 @@ fn a_rating_shows_the_image_and_then_the_scales_with_their_points() {
     viewing.press(Key::ArrowRight);
     assert_eq!(Some(viewing.at_ns()), viewing.rows[0].grey_onset_ns);
     viewing.press(Key::ArrowRight);
-    let hash = &viewing.rows[0].first_image_sha256;
-    let mut images = viewing.study.manifest.images();
-    let image = images
-        .find(|image| image.sha256 == *hash)
+    let hash = viewing.rows[0].first_image_sha256.clone();
+    let pair = &viewing.study.manifest.pairs[0];
+    let image = [&pair.first, &pair.second]
+        .into_iter()
+        .find(|image| image.sha256 == hash)
         .expect("the image");
     let picture = viewing.study.rgba8(image);
     assert_picture(&viewing.screen(), &picture);
