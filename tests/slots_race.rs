@@ -18,7 +18,7 @@ use greyfield::record::audit::{Severity, audit};
 use greyfield::record::{Enrolment, ParticipantId, RecordError, Study};
 use greyfield::seed;
 use greyfield::session::headless::{Headless, HeadlessError};
-use greyfield::session::observer::Scripted;
+use greyfield::session::observer::{Needs, Scripted};
 use greyfield::session::start;
 use greyfield::stimulus::Manifest;
 use time::OffsetDateTime;
@@ -77,11 +77,17 @@ impl Worker {
         let protocol = Protocol::parse(&path, &text).unwrap();
         let manifest = Manifest::load(&folder.join("images")).unwrap();
         let study = start::open_study(&results, &protocol, &text, &manifest).unwrap();
+        let needs = Needs {
+            protocol: &protocol,
+            manifest: &manifest,
+            distances: &|_, _| Err(String::from("no images are compared here")),
+        };
+        let scripted = Scripted::new("random:5", &needs).unwrap();
         Self {
             protocol,
             manifest,
             study,
-            scripted: "random:5".parse().unwrap(),
+            scripted,
             name: who.to_owned(),
             enrolled: 0,
             rng: seed::generator(1, who, 0),
