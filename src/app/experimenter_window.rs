@@ -2,6 +2,7 @@
 //! and replays.
 
 use std::cell::RefCell;
+use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Instant;
@@ -11,6 +12,7 @@ use winit::window::Window;
 
 use super::browser::{Browser, Folder};
 use super::replay::Replaying;
+use super::study_page::StudyPage;
 use super::tuner::{Tuner, Tuning};
 use super::{AppError, START_PAGE, check_display, theme, window};
 
@@ -29,6 +31,18 @@ pub fn browse(folder: Folder) -> Result<(), AppError> {
     run(&title, START_PAGE, move |ctx| {
         let mut browser = Browser::of(ctx, Ok(folder));
         Box::new(move |ui| browser.ui(ui))
+    })
+}
+
+/// Opens the page of a study, which follows its sessions, and runs until its window is closed.
+///
+/// # Errors
+/// As [`browse`].
+pub fn watch(results: &Path) -> Result<(), AppError> {
+    let title = format!("Greyfield: {}", results.display());
+    let mut page = StudyPage::new(results, true);
+    run(&title, START_PAGE, move |_ctx| {
+        Box::new(move |ui| page.ui(ui))
     })
 }
 

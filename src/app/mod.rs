@@ -11,6 +11,7 @@
 //! pace         when to ask for the next frame while a picture stands
 //! sitting      one session on the screen: input in, picture out, rows to disk
 //! participant  one file a screen
+//! study_page   who is how far, decisions, exports; also in a window of its own
 //! browser      the stimuli, for the experimenter alone
 //! replay       a recorded session again, for the experimenter alone
 //! tuner        what a technique costs, live, for the experimenter alone
@@ -19,6 +20,7 @@
 
 pub mod application;
 pub mod arrangement;
+mod background;
 pub mod browser;
 pub mod clock;
 pub mod display;
@@ -38,6 +40,7 @@ pub mod stage;
 pub mod start_page;
 pub mod stimuli_check;
 pub mod stimulus_view;
+pub mod study_page;
 pub mod theme;
 pub mod tuner;
 pub mod window;
@@ -48,7 +51,7 @@ use std::rc::Rc;
 pub use application::{Application, Setup};
 pub use display::available as display_available;
 pub use error::AppError;
-pub use experimenter_window::{browse, replay, tune};
+pub use experimenter_window::{browse, replay, tune, watch};
 
 /// Smallest window the start page reads well in, points.
 const START_PAGE: [u32; 2] = [1280, 800];

@@ -25,6 +25,7 @@ mod size;
 mod techniques;
 mod truth;
 mod tune;
+mod watch;
 
 use std::process::ExitCode;
 
@@ -61,6 +62,7 @@ enum Command {
     Advise(Box<advise::Advise>),
     Browse(browse::Browse),
     Tune(tune::Tune),
+    Watch(watch::Watch),
     Run(Box<run::Run>),
     Order(order::Order),
     Participants(participants::Participants),
@@ -146,6 +148,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Advise(args) => advise::run(&args, verbosity),
         Command::Browse(args) => browse::run(&args),
         Command::Tune(args) => tune::run(&args),
+        Command::Watch(args) => watch::run(&args),
         Command::Run(args) => run::run(&args, verbosity),
         Command::Order(args) => order::run(&args),
         Command::Participants(args) => participants::run(&args),

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::options::twice;
 use super::{PlanError, Position, Protocol};
 
 /// One pair of a stimulus set: two techniques on one scene in one lighting.
@@ -220,6 +221,13 @@ fn singles<'a>(view: &'a View<'_>) -> impl Iterator<Item = Exhibit> + 'a {
 fn versions(view: &View<'_>) -> Result<Exhibit, PlanError> {
     if view.versions.len() < 2 {
         return Err(PlanError::OneVersion(view.id()));
+    }
+    let names = view.versions.iter().map(|version| version.technique);
+    if let Some(technique) = twice(names) {
+        return Err(PlanError::TwoImages {
+            view: view.id(),
+            technique: technique.to_owned(),
+        });
     }
     let technique = |version: &Version| version.technique.to_owned();
     Ok(Exhibit {

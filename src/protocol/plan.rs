@@ -111,6 +111,16 @@ pub enum PlanError {
         /// Technique of the reference.
         technique: String,
     },
+    /// One name for two images that stand side by side.
+    #[error(
+        "{view:?} has two different images of the technique {technique:?}; give them different labels to rank them"
+    )]
+    TwoImages {
+        /// Scene and lighting.
+        view: String,
+        /// The label both have.
+        technique: String,
+    },
     /// Nothing to rank.
     #[error("{0:?} has one version only; to rank, a scene needs two or more techniques")]
     OneVersion(String),

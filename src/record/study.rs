@@ -257,6 +257,18 @@ impl Study {
         read::read_rows(&path).map(|rows| Some(rows.rows.len()))
     }
 
+    /// Whole rows on record of a participant; none if the id is new.
+    ///
+    /// # Errors
+    /// [`RecordError`] if the folder cannot be read.
+    pub fn rows(&self, participant: &ParticipantId) -> Result<Vec<TrialRow>, RecordError> {
+        let path = self.data_path(participant);
+        if !path.exists() {
+            return Ok(Vec::new());
+        }
+        read::read_rows(&path).map(|read| read.rows)
+    }
+
     /// The results folder.
     #[must_use]
     pub fn folder(&self) -> &Path {

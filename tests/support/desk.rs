@@ -1,5 +1,6 @@
 //! A session in the window with a clock moved by hand, rows kept in memory and a
 //! disk that can be full.
+#![allow(dead_code)] // each test file uses its part
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -13,7 +14,7 @@ use greyfield::app::pictures::Pictures;
 use greyfield::app::present_feedback::Displayed;
 use greyfield::app::sitting::Sitting;
 use greyfield::app::theme;
-use greyfield::record::{InputDevice, OnsetMethod, TrialRow};
+use greyfield::record::{About, InputDevice, OnsetMethod, TrialRow};
 use greyfield::session::{
     DisplayOnRecord, Effect, Event, ImageHashes, Screen, Session, SessionInfo, start,
 };
@@ -29,6 +30,8 @@ pub struct Desk {
     pub harness: Harness<'static, Sitting>,
     pub clock_ns: Rc<Cell<u64>>,
     pub rows: Rc<RefCell<Vec<TrialRow>>>,
+    /// What the participant agreed to and told.
+    pub about: Rc<RefCell<Option<About>>>,
     /// What the disk says instead of storing, while it is full.
     pub disk_error: Rc<RefCell<Option<String>>>,
     pub study: Tiny,
@@ -51,7 +54,9 @@ impl Desk {
         let clock_ns = Rc::new(Cell::new(0));
         let rows: Rc<RefCell<Vec<TrialRow>>> = Rc::default();
         let disk_error: Rc<RefCell<Option<String>>> = Rc::default();
-        let sitting = sitting(&study, &clock_ns, &rows, &disk_error).with_refresh_period(period);
+        let about: Rc<RefCell<Option<About>>> = Rc::default();
+        let sitting =
+            sitting(&study, &clock_ns, &rows, &about, &disk_error).with_refresh_period(period);
         let harness = Harness::builder()
             .with_size(WINDOW)
             .with_theme(egui::Theme::Light)
@@ -68,6 +73,7 @@ impl Desk {
             harness,
             clock_ns,
             rows,
+            about,
             disk_error,
             study,
             told_after_ns: None,
@@ -131,6 +137,7 @@ fn sitting(
     study: &Tiny,
     clock_ns: &Rc<Cell<u64>>,
     rows: &Rc<RefCell<Vec<TrialRow>>>,
+    about: &Rc<RefCell<Option<About>>>,
     disk_error: &Rc<RefCell<Option<String>>>,
 ) -> Sitting {
     let protocol = study.protocol();
@@ -165,7 +172,7 @@ fn sitting(
     let exhibits = start::exhibits(&protocol, &study.manifest).expect("exhibits");
     let folder = study.path("stimuli");
     let pictures = Pictures::new(folder, &study.manifest, &exhibits, session.plan());
-    let (rows, disk_error) = (Rc::clone(rows), Rc::clone(disk_error));
+    let (rows, about, disk_error) = (Rc::clone(rows), Rc::clone(about), Rc::clone(disk_error));
     Sitting::new(
         session,
         Rc::new(protocol),
@@ -174,8 +181,9 @@ fn sitting(
             if let Some(detail) = disk_error.borrow().clone() {
                 return Event::StoreFailed(detail);
             }
-            if let Effect::StoreRow(row) = effect {
-                rows.borrow_mut().push((**row).clone());
+            match effect {
+                Effect::StoreRow(row) => rows.borrow_mut().push((**row).clone()),
+                Effect::StoreAbout(told) => *about.borrow_mut() = Some((**told).clone()),
             }
             Event::RowStored
         }),

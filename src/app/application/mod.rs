@@ -22,6 +22,7 @@ use super::sitting::Sitting;
 use super::start_page::{self, Enrolling, Facts, Next, OnRecord, Request};
 use super::stimuli_check::StimuliCheck;
 use super::stimulus_view::{self, SizePx};
+use super::study_page::StudyPage;
 use super::theme;
 use super::window::Content;
 use crate::protocol::Protocol;
@@ -69,6 +70,8 @@ pub struct Application {
     gamepads: Option<Gamepads>,
     /// Images of the trial that shows most of them at once.
     most_versions: usize,
+    /// The study's page, opened from the start page; never during a session.
+    study_page: Option<Box<StudyPage>>,
     /// The stimulus browser, opened from the start page; never during a session.
     browser: Option<Box<Browser>>,
     full_screen: FullScreen,
@@ -104,6 +107,7 @@ impl Application {
             sitting_of: None,
             gamepads: None,
             most_versions: 0,
+            study_page: None,
             browser: None,
             full_screen: FullScreen::default(),
             first_frame_seen: false,
@@ -186,6 +190,12 @@ impl Application {
         };
         match start_page::show(ui, &facts, &mut self.enrolling) {
             Some(Next::Stimuli) => self.browse(ui.ctx()),
+            Some(Next::Study) => {
+                let page = StudyPage::new(self.setup.study.folder(), false);
+                self.study_page = Some(Box::new(page.with_way_back()));
+                ui.ctx().request_repaint();
+            }
+            Some(Next::Watch) => self.watch(),
             Some(Next::Session(request)) => self.begin(ui.ctx(), request),
             None => {}
         }
@@ -209,6 +219,23 @@ impl Application {
             if let Some(sitting) = &mut self.sitting {
                 sitting.displayed(frame);
             }
+        }
+    }
+
+    /// Starts this program once more, to watch the study in a window of its own: a
+    /// second window of this process would make a session's frames wait for its own.
+    fn watch(&mut self) {
+        let started = std::env::current_exe().and_then(|program| {
+            std::process::Command::new(program)
+                .arg("watch")
+                .arg(self.setup.study.folder())
+                .spawn()
+        });
+        if let Err(error) = started {
+            let folder = self.setup.study.folder().display();
+            self.enrolling.failure = Some(format!(
+                "no second window: {error}; start it by hand with `greyfield watch {folder}`"
+            ));
         }
     }
 
@@ -262,6 +289,8 @@ impl Content for Application {
             }
         } else if self.waiting.is_some() {
             stimulus_view::paint_grey(ui.ctx(), self.protocol.grey.level_srgb.get());
+        } else if let Some(page) = &mut self.study_page {
+            page.ui(ui);
         } else if let Some(browser) = &mut self.browser {
             browser.ui(ui);
         } else {
@@ -273,6 +302,10 @@ impl Content for Application {
             .is_some_and(|browser| browser.is_left())
         {
             self.browser = None;
+            ui.ctx().request_repaint();
+        }
+        if self.study_page.take_if(|page| page.is_left()).is_some() {
+            self.count_participants();
             ui.ctx().request_repaint();
         }
         self.stand_up(ui.ctx());

@@ -2,9 +2,9 @@
 
 use eframe::egui::{Grid, RichText, ScrollArea, Ui};
 
-use super::background::Task;
 use super::folder::{Folder, images};
 use super::pair::Loaded;
+use crate::app::background::Task;
 use crate::stimulus::manifest::{ImageRecord, PairRecord, SourceRecord};
 
 /// What the side panel shows.

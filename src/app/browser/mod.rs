@@ -8,10 +8,9 @@
 //! pair     two pictures, compared    facts       the side panel
 //! opened   the folder and what is    controls    the row over the stage
 //!          selected in it
-//! buffers  a frame's targets         background  work beside the interface
+//! buffers  a frame's targets
 //! ```
 
-mod background;
 mod buffers;
 mod controls;
 mod facts;

@@ -3,12 +3,12 @@
 use eframe::egui::{Context, ScrollArea, TextureHandle, Ui};
 
 use super::Look;
-use super::background::Task;
 use super::buffers;
 use super::facts::{self, Sheet};
 use super::folder::Folder;
 use super::gallery::Gallery;
 use super::pair::Pair;
+use crate::app::background::Task;
 use crate::app::stage::{self, Content, Stage};
 use crate::render::Buffer;
 use crate::stimulus::manifest::{PairRecord, Picture};

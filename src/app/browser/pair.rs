@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use eframe::egui::{Context, TextureHandle};
 
-use super::background::Task;
+use crate::app::background::Task;
 use crate::app::stage::upload;
 use crate::stimulus::difference::{Difference, difference_picture};
 use crate::stimulus::manifest::{PairRecord, Picture};

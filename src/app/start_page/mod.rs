@@ -35,6 +35,10 @@ pub enum Next {
     Session(Request),
     /// To the stimuli, before anybody takes part.
     Stimuli,
+    /// To the participants and their data.
+    Study,
+    /// To the same in a window of its own, which stays during sessions.
+    Watch,
 }
 
 /// Draws the page.
@@ -53,8 +57,22 @@ pub fn show(ui: &mut Ui, facts: &Facts<'_>, enrolling: &mut Enrolling) -> Option
                 heading(ui, facts);
                 let request = enrolment::show(ui, facts, enrolling);
                 facts::show(ui, facts);
-                if ui.button("Look at the stimuli").clicked() {
-                    return Some(Next::Stimuli);
+                let asked = ui.horizontal_wrapped(|ui| {
+                    let [study, watch, stimuli] = [
+                        "Participants and data",
+                        "Watch in another window",
+                        "Look at the stimuli",
+                    ]
+                    .map(|text| ui.button(text).clicked());
+                    [
+                        (study, Next::Study),
+                        (watch, Next::Watch),
+                        (stimuli, Next::Stimuli),
+                    ]
+                });
+                let asked = asked.inner.into_iter().find(|(pressed, _)| *pressed);
+                if let Some((_, next)) = asked {
+                    return Some(next);
                 }
                 request.map(Next::Session)
             })

@@ -34,7 +34,7 @@ pub fn lines(
 }
 
 fn is_finished(standing: &Standing, pairs: usize) -> bool {
-    standing.released.is_none() && standing.answered >= pairs
+    standing.released.is_none() && standing.rejected.is_none() && standing.answered >= pairs
 }
 
 fn attendance(standings: &[Standing], pairs: usize) -> String {
@@ -54,6 +54,10 @@ fn attendance(standings: &[Standing], pairs: usize) -> String {
     }
     if dropped > 0 {
         parts.push(format!("{dropped} dropped out"));
+    }
+    let rejected = standings.iter().filter(|s| s.rejected.is_some()).count();
+    if rejected > 0 {
+        parts.push(format!("{rejected} rejected"));
     }
     parts.join("; ")
 }

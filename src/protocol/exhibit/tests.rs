@@ -112,6 +112,19 @@ fn versions_are_all_different_images_of_a_view() {
 }
 
 #[test]
+fn two_images_of_one_name_cannot_be_ranked() {
+    let mut set = set();
+    set[1].image_sha256[1] = "another".to_owned();
+    assert_eq!(
+        exhibits(&protocol(RANKING), &set),
+        Err(PlanError::TwoImages {
+            view: "atrium-low".to_owned(),
+            technique: "gtao".to_owned()
+        })
+    );
+}
+
+#[test]
 fn conditions_of_older_results_folders_are_still_read() {
     let old = r#"{"id":"a","scene":"atrium","first_technique":"none","second_technique":"gtao","hypothesis":"H1"}"#;
     let condition: Condition = serde_json::from_str(old).unwrap();
