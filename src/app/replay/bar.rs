@@ -86,11 +86,10 @@ fn words(replaying: &Replaying, screen: ReplayScreen) -> String {
     };
     let what = match screen.what {
         Shown::Image { place } => {
-            let technique = trial.images.get(place).map_or("", |image| &image.technique);
-            let which = match (place, trial.ask) {
-                (_, Ask::Ratings) => "image",
-                (0, _) => "first image",
-                _ => "second image",
+            let (which, technique) = match (place, trial.ask) {
+                (_, Ask::Ratings) => ("image", &trial.row.technique_first),
+                (0, _) => ("first image", &trial.row.technique_first),
+                _ => ("second image", &trial.row.technique_second),
             };
             format!("{which}: {technique}")
         }

@@ -179,7 +179,12 @@ fn ratings(row: &TrialRow, protocol: &Protocol) -> Vec<Option<u32>> {
 
 /// Places of the images in the order they were ranked.
 fn places(row: &TrialRow) -> Vec<usize> {
-    let shown: Vec<&str> = row.techniques_shown.split(LIST_SEPARATOR).collect();
+    // Two versions stand in the columns of a pair.
+    let shown: Vec<&str> = if row.techniques_shown.is_empty() {
+        vec![&row.technique_first, &row.technique_second]
+    } else {
+        row.techniques_shown.split(LIST_SEPARATOR).collect()
+    };
     let place = |technique: &str| shown.iter().position(|known| *known == technique);
     row.ranking
         .split(LIST_SEPARATOR)
