@@ -76,6 +76,11 @@ impl Rules {
             asks_about: !protocol.metadata.is_empty(),
         }
     }
+
+    /// Whether this is what a trial asks.
+    pub fn asks(&self, ask: Ask) -> bool {
+        self.steps.last() == Some(&Step::Ask(ask))
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

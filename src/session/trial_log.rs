@@ -172,7 +172,7 @@ impl TrialLog {
         let (technique_first, technique_second) = plan.techniques(trial);
         let hashes = Hashes::of(info, trial);
         let [first, second] = self.images;
-        let is_ranking = trial.places.len() > 2;
+        let is_ranking = rules.asks(Ask::Ranking);
         let (onset_method, onset_uncertainty_ms) = self.onset_method(info);
         TrialRow {
             row_id: row_id(info, trial),

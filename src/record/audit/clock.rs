@@ -47,7 +47,7 @@ fn instants(row: &TrialRow) -> Vec<(&'static str, u64)> {
         ("grey_offset_ns", row.grey_offset_ns),
     ];
     // Where images are rated, ranked or compared, the grey stands before them.
-    let grey_first = row.grey_onset_ns.is_some() && row.grey_onset_ns < row.first_onset_ns;
+    let grey_first = matches!(&*row.procedure, "rating" | "reference" | "rank-order");
     let [one, other] = if grey_first {
         [grey, first]
     } else {
