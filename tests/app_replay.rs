@@ -3,7 +3,6 @@
 #![allow(clippy::expect_used)] // a test ends where something is missing
 
 #[path = "support/desk.rs"]
-#[allow(dead_code)] // every test file uses another part of it
 mod desk;
 #[path = "support/recorded.rs"]
 #[allow(dead_code)] // every test file uses another part of it
