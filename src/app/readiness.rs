@@ -3,7 +3,7 @@
 
 use std::time::{Duration, Instant};
 
-use eframe::egui::{Context, CursorIcon, Ui, vec2};
+use eframe::egui::{Context, CursorIcon, Rect, Ui, UiBuilder, vec2};
 use winit::window::Window;
 
 use super::display_check::DisplayCheck;
@@ -17,6 +17,9 @@ use crate::session::{DisplayFigures, DisplayOnRecord, Verdict};
 
 /// How long the display is looked at, at least.
 const AT_LEAST: Duration = Duration::from_secs(1);
+
+/// Widest the page gets, points.
+const WIDTH: f32 = 860.0;
 
 /// A session that was asked for and waits for its display.
 #[derive(Debug)]
@@ -113,37 +116,39 @@ fn sentences(shortfalls: &[Shortfall]) -> String {
 /// The page for the experimenter; true to begin, false to go back.
 fn warning(ui: &mut Ui, shortfalls: &[Shortfall]) -> Option<bool> {
     stimulus_view::paint_grey(ui.ctx(), theme::PAGE);
-    let width = 860.0_f32.min(ui.available_width() - 48.0).max(1.0);
-    ui.vertical_centered(|ui| {
-        ui.add_space(80.0);
-        ui.set_max_width(width);
-        theme::card()
-            .show(ui, |ui| {
-                ui.heading("The display is not as the protocol asks");
-                ui.add_space(8.0);
-                for shortfall in shortfalls {
-                    ui.label(shortfall.to_string());
-                }
-                ui.add_space(8.0);
-                ui.label(theme::quiet(
-                    "The protocol leaves it to you. What was found goes on record with every row.",
-                ));
-                ui.add_space(12.0);
-                ui.horizontal(|ui| {
-                    let begin = ui.add(theme::primary_button(
-                        "Begin all the same",
-                        vec2(220.0, 44.0),
-                    ));
-                    let back = ui.button("Back");
-                    match (begin.clicked(), back.clicked()) {
-                        (true, _) => Some(true),
-                        (_, true) => Some(false),
-                        _ => None,
-                    }
-                })
-                .inner
-            })
-            .inner
+    let screen = ui.ctx().viewport_rect();
+    let width = WIDTH.min(screen.width() - 48.0).max(1.0);
+    let corner = screen.center_top() + vec2(-width / 2.0, screen.height() * 0.1);
+    let column = Rect::from_min_size(corner, vec2(width, screen.height() * 0.8));
+    ui.scope_builder(UiBuilder::new().max_rect(column), |ui| {
+        theme::card().show(ui, |ui| decision(ui, shortfalls)).inner
+    })
+    .inner
+}
+
+fn decision(ui: &mut Ui, shortfalls: &[Shortfall]) -> Option<bool> {
+    ui.set_min_width(ui.available_width());
+    ui.heading("The display is not as the protocol asks");
+    ui.add_space(8.0);
+    for shortfall in shortfalls {
+        ui.label(format!("– {shortfall}"));
+    }
+    ui.add_space(8.0);
+    ui.label(theme::quiet(
+        "The protocol leaves it to you. What was found goes on record with every row.",
+    ));
+    ui.add_space(12.0);
+    ui.horizontal(|ui| {
+        let begin = ui.add(theme::primary_button(
+            "Begin all the same",
+            vec2(220.0, 44.0),
+        ));
+        let back = ui.button("Back");
+        match (begin.clicked(), back.clicked()) {
+            (true, _) => Some(true),
+            (_, true) => Some(false),
+            _ => None,
+        }
     })
     .inner
 }

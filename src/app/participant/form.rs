@@ -3,6 +3,7 @@
 use eframe::egui::{TextEdit, Ui, vec2};
 
 use super::{Given, Page, button, device};
+use crate::app::theme;
 use crate::protocol::options::MetadataField;
 use crate::record::AboutAnswer;
 use crate::session::Event;
@@ -55,8 +56,8 @@ fn question(ui: &mut Ui, page: Page<'_>, field: &MetadataField, index: usize, dr
         for (choice, own) in field.choices.iter().enumerate() {
             let text = words.and_then(|words| words.choices.get(choice));
             let is_chosen = draft.chosen[index] == Some(choice);
-            let shown = ui.selectable_label(is_chosen, &**text.unwrap_or(own));
-            if shown.clicked() {
+            let size = vec2(0.0, 44.0 * page.look.text_scale);
+            if theme::point_button(ui, text.unwrap_or(own), is_chosen, size).clicked() {
                 // A second click takes the answer back.
                 draft.chosen[index] = (!is_chosen).then_some(choice);
             }

@@ -1,6 +1,6 @@
 //! The scales, one row of points each; digits rate the first scale that has no answer.
 
-use eframe::egui::{InputState, Key as EguiKey, Ui, Vec2, vec2};
+use eframe::egui::{Align, InputState, Key as EguiKey, Layout, Ui, Vec2, vec2};
 
 use super::{Given, Page, button, device, pressed};
 use crate::app::theme;
@@ -77,7 +77,9 @@ fn row(ui: &mut Ui, page: Page<'_>, scale: &Scale, rating: &mut Option<u32>) {
         return;
     };
     ui.label(&*words.question);
-    ui.horizontal(|ui| {
+    // As high as its buttons from the start, so that the words stand in their middle.
+    let size = vec2(ui.available_width(), POINT.y * page.look.text_scale);
+    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         ui.label(&*words.low);
         for point in 1..=scale.points.get() {
             let is_given = *rating == Some(point);

@@ -56,29 +56,30 @@ pub fn show(ui: &mut Ui, facts: &Facts<'_>, enrolling: &mut Enrolling) -> Option
             .show(ui, |ui| {
                 heading(ui, facts);
                 let request = enrolment::show(ui, facts, enrolling);
+                let elsewhere = ways_on(ui);
                 facts::show(ui, facts);
-                let asked = ui.horizontal_wrapped(|ui| {
-                    let [study, watch, stimuli] = [
-                        "Participants and data",
-                        "Watch in another window",
-                        "Look at the stimuli",
-                    ]
-                    .map(|text| ui.button(text).clicked());
-                    [
-                        (study, Next::Study),
-                        (watch, Next::Watch),
-                        (stimuli, Next::Stimuli),
-                    ]
-                });
-                let asked = asked.inner.into_iter().find(|(pressed, _)| *pressed);
-                if let Some((_, next)) = asked {
-                    return Some(next);
-                }
-                request.map(Next::Session)
+                elsewhere.or(request.map(Next::Session))
             })
             .inner
     })
     .inner
+}
+
+/// The buttons to the other pages.
+fn ways_on(ui: &mut Ui) -> Option<Next> {
+    ui.add_space(10.0);
+    ui.horizontal_wrapped(|ui| {
+        [
+            ("Participants and data", Next::Study),
+            ("Watch in another window", Next::Watch),
+            ("Look at the stimuli", Next::Stimuli),
+        ]
+        .map(|(text, next)| ui.button(text).clicked().then_some(next))
+    })
+    .inner
+    .into_iter()
+    .flatten()
+    .next()
 }
 
 fn heading(ui: &mut Ui, facts: &Facts<'_>) {

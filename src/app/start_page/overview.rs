@@ -1,6 +1,7 @@
 //! Who has taken part so far, and what that makes of the design's balance.
 
 use crate::protocol::balance::{Aspect, Balance};
+use crate::protocol::exhibit::Exhibits;
 use crate::protocol::{Condition, PlanError, Protocol, SessionPlan};
 use crate::record::{RecordError, Standing, Study};
 
@@ -29,7 +30,11 @@ pub fn lines(
         .map(|standing| standing.slot);
     // A study without a plan is refused long before this page.
     let plan = |slot| SessionPlan::new(protocol, conditions, slot);
-    lines.extend(balance(plan, finished, next).unwrap_or_default());
+    let in_pairs = matches!(
+        protocol.procedure.exhibits,
+        Exhibits::Pairs | Exhibits::PairsWithReference
+    );
+    lines.extend(balance(plan, finished, next, in_pairs).unwrap_or_default());
     Ok(lines)
 }
 
@@ -68,6 +73,7 @@ fn balance(
     plan: impl Fn(u32) -> Result<SessionPlan, PlanError>,
     finished: impl Iterator<Item = u32>,
     next: u32,
+    in_pairs: bool,
 ) -> Result<Vec<String>, PlanError> {
     let mut balance = Balance::default();
     for slot in finished {
@@ -81,20 +87,25 @@ fn balance(
         format!(
             "Balance of the {} finished: {}",
             balance.sessions(),
-            counts(&balance)
+            counts(&balance, in_pairs)
         ),
-        format!("With the next participant: {}", counts(&after)),
+        format!("With the next participant: {}", counts(&after, in_pairs)),
     ])
 }
 
-fn counts(balance: &Balance) -> String {
+fn counts(balance: &Balance, in_pairs: bool) -> String {
     let times = |aspect| balance.evenness(aspect).range;
-    format!(
-        "each pair stood in each position {} times, reversed {} times, right after each other \
-         {} times; in each position {} were reversed",
+    let stood = format!(
+        "each condition stood in each position {} times, right after each other {} times",
         times(Aspect::Position),
-        times(Aspect::InnerOrder),
         times(Aspect::CarryOver),
+    );
+    if !in_pairs {
+        return stood;
+    }
+    format!(
+        "{stood}; each pair was reversed {} times, in each position {} were",
+        times(Aspect::InnerOrder),
         times(Aspect::InnerOrderAtPosition),
     )
 }
@@ -119,7 +130,7 @@ mod tests {
             })
             .into();
         let plan = |slot| SessionPlan::new(&protocol, &conditions, slot);
-        balance(plan, finished.iter().copied(), next).unwrap()
+        balance(plan, finished.iter().copied(), next, true).unwrap()
     }
 
     /// Three pairs: participants 0 to 2 see a Latin square, 3 to 5 the same reversed.
@@ -131,14 +142,16 @@ mod tests {
         };
         assert!(now.starts_with("Balance of the 5 finished: "), "{now}");
         assert!(
-            now.contains("in each position 1 to 2 times, reversed 2 times"),
+            now.contains("in each position 1 to 2 times, right after")
+                && now.contains("was reversed 2 times"),
             "{now}"
         );
         assert!(
-            then.contains("in each position 2 times, reversed 3 times"),
+            then.contains("in each position 2 times, right after")
+                && then.contains("was reversed 3 times"),
             "{then}"
         );
-        assert!(then.ends_with("in each position 3 were reversed"), "{then}");
+        assert!(then.ends_with("in each position 3 were"), "{then}");
     }
 
     #[test]

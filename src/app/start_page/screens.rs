@@ -51,7 +51,7 @@ pub fn show(ui: &mut Ui, facts: &Facts<'_>, screens: &mut Screens) {
                 .response
                 .labelled_by(label.id);
         }
-        let label = ui.label("Type");
+        let label = ui.label("Size of type");
         let size = SIZES.iter().find(|(scale, _)| *scale == screens.text_scale);
         ComboBox::from_id_salt("type")
             .selected_text(size.map_or("usual", |(_, name)| name))
