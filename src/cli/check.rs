@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use clap::Args;
 
-use super::{Failure, Verbosity, check_display, check_results, render};
+use super::{Failure, Verbosity, check_config, check_display, check_results, render};
 use crate::render::technique::TECHNIQUES;
 use crate::render::{Gpu, Renderer, stability};
 use crate::stimulus::check::{
@@ -28,10 +28,10 @@ use crate::stimulus::{Folders, Manifest, StimulusError, StimulusSet};
 /// folders are compared in the same way.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example:\n  greyfield check stimuli/thesis-2010\n  greyfield check stimuli/thesis-2010 --set stimuli/thesis-2010.toml --diff differences\n  greyfield check results/thesis-2010\n  greyfield check --stability\n  greyfield check --display --seconds 5"
+    after_help = "Example:\n  greyfield check stimuli/thesis-2010\n  greyfield check stimuli/thesis-2010 --set stimuli/thesis-2010.toml --diff differences\n  greyfield check results/thesis-2010\n  greyfield check protocols/yu-2009-reference.toml\n  greyfield check --stability\n  greyfield check --display --seconds 5"
 )]
 pub struct Check {
-    /// The folder with the images and their manifest, or a results folder.
+    /// A folder of images with its manifest, a results folder, or a config: protocol, set or scene.
     #[arg(required_unless_present_any = ["stability", "display"])]
     folder: Option<PathBuf>,
     /// Instead of a folder: draw every technique on frames at the edge of what can be drawn, and
@@ -84,6 +84,9 @@ pub fn run(args: &Check, verbosity: Verbosity) -> Result<(), Failure> {
     let Some(folder) = &args.folder else {
         return stability(verbosity);
     };
+    if check_config::is_config(folder) {
+        return check_config::run(folder);
+    }
     if check_results::is_results(folder) {
         let format = args.format.unwrap_or(check_results::Format::Text);
         return check_results::run(folder, format);

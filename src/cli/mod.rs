@@ -6,6 +6,7 @@ mod bent_cones;
 mod bounces;
 mod browse;
 mod check;
+mod check_config;
 mod check_display;
 mod check_results;
 mod cost;

@@ -196,7 +196,7 @@ fn is_broken_pipe(failure: &Failure) -> bool {
 }
 
 /// The conditions of a stimulus set, which need not be rendered for this.
-fn conditions(protocol: &Protocol, set: &Path) -> Result<Vec<Condition>, Failure> {
+pub(super) fn conditions(protocol: &Protocol, set: &Path) -> Result<Vec<Condition>, Failure> {
     let set = StimulusSet::load(set).map_err(Failure::bad_input)?;
     let pair = |condition: &SetCondition| Pair {
         id: condition.id.clone(),
