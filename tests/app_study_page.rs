@@ -7,6 +7,7 @@ mod support;
 
 use std::time::{Duration, Instant};
 
+use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -61,7 +62,7 @@ fn a_participant_is_rejected_with_a_reason_and_reinstated() {
     recorded::rows(&study, "first");
     let results = study.path("results");
     let mut looking = Looking::at(study);
-    looking.harness.get_by_label_contains("1 finished");
+    looking.harness.get_by_label("1 finished");
     looking.harness.get_by_label_contains("Audit: 0 errors");
     looking.click("firstp0001");
     looking.click("Reject");
@@ -70,9 +71,14 @@ fn a_participant_is_rejected_with_a_reason_and_reinstated() {
         study.rejected_ids().expect("the record")
     };
     assert!(rejected().is_empty(), "not without a reason");
+    let field = looking
+        .harness
+        .get_by_role_and_label(Role::TextInput, "firstp0001: reason");
+    field.focus();
+    looking.harness.step();
     looking
         .harness
-        .get_by_label("firstp0001: reason")
+        .get_by_role_and_label(Role::TextInput, "firstp0001: reason")
         .type_text("fell asleep");
     looking.harness.step();
     looking.click("Reject");

@@ -14,6 +14,7 @@ use greyfield::app::pictures::Pictures;
 use greyfield::app::present_feedback::Displayed;
 use greyfield::app::sitting::Sitting;
 use greyfield::app::theme;
+use greyfield::protocol::Exhibit;
 use greyfield::record::{About, InputDevice, OnsetMethod, TrialRow};
 use greyfield::session::{
     DisplayOnRecord, Effect, Event, ImageHashes, Screen, Session, SessionInfo, start,
@@ -142,6 +143,16 @@ fn sitting(
 ) -> Sitting {
     let protocol = study.protocol();
     let plan = study.plan(0);
+    let exhibits = start::exhibits(&protocol, &study.manifest).expect("exhibits");
+    let sha256 = |&at: &_| {
+        let image = start::image(&study.manifest, at).expect("the image");
+        image.sha256.clone()
+    };
+    let hashes = |exhibit: &Exhibit| ImageHashes {
+        images: exhibit.images.iter().map(sha256).collect(),
+        reference: exhibit.reference.as_ref().map(sha256),
+    };
+    let images = exhibits.iter().map(hashes).collect();
     let info = SessionInfo {
         participant_id: String::from("P01"),
         session: 1,
@@ -155,21 +166,12 @@ fn sitting(
         display: DisplayOnRecord::default(),
         refresh_period_ns: None,
         input_device: InputDevice::Keyboard,
-        images: study
-            .manifest
-            .pairs
-            .iter()
-            .map(|pair| ImageHashes {
-                images: vec![pair.first.sha256.clone(), pair.second.sha256.clone()],
-                reference: None,
-            })
-            .collect(),
+        images,
         answered: 0,
         has_told: false,
         interrupted_utc: None,
     };
     let session = Session::new(plan, &protocol, info);
-    let exhibits = start::exhibits(&protocol, &study.manifest).expect("exhibits");
     let folder = study.path("stimuli");
     let pictures = Pictures::new(folder, &study.manifest, &exhibits, session.plan());
     let (rows, about, disk_error) = (Rc::clone(rows), Rc::clone(about), Rc::clone(disk_error));

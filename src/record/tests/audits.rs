@@ -229,9 +229,22 @@ fn times_that_cannot_be_are_found() {
         Some(3),
         &["negative duration", "grey_offset_ns is 1"],
     );
-    let short = with_row(0, |row| row.grey_onset_ns = Some(4_000_000_001));
+    // 120 frames of 16.67 ms: what is missing is more than half of one.
+    let short = with_row(0, |row| row.grey_onset_ns = Some(4_008_400_000));
     only(
         &short,
+        Severity::Warning,
+        Some(2),
+        &["1991.6 ms", "2000 ms"],
+    );
+    let rounded = with_row(0, |row| row.grey_onset_ns = Some(4_008_300_000));
+    assert_eq!(rounded, []);
+    let by_the_clock = with_row(0, |row| {
+        row.grey_frames = None;
+        row.grey_onset_ns = Some(4_000_000_001);
+    });
+    only(
+        &by_the_clock,
         Severity::Warning,
         Some(2),
         &["1999.999999 ms", "2000 ms"],
