@@ -202,13 +202,16 @@ fn say(event: &str, participant: &str, slot: u32) {
     std::io::stdout().flush().unwrap();
 }
 
-/// Ids by the names of the data files: these ids are letters and digits.
+/// Ids by the names of the data files: these ids are letters and digits. A file whose name
+/// begins with a dot is no data file yet, and its participant nobody.
 fn participants(results: &Path) -> Vec<String> {
     let names = fs::read_dir(results.join("data")).unwrap();
     let mut ids: Vec<String> = names
         .filter_map(|entry| {
             let name = entry.unwrap().file_name().into_string().unwrap();
-            let (_, rest) = name.split_once("_subject-")?;
+            let (_, rest) = name
+                .split_once("_subject-")
+                .filter(|_| !name.starts_with('.'))?;
             Some(rest.split_once('_')?.0.to_owned())
         })
         .collect();

@@ -1,17 +1,14 @@
 //! The stimulus browser over a real folder: the pixels it shows, in every look.
-#![allow(clippy::expect_used)] // a test ends where something is missing
-
-mod support;
 
 use std::time::{Duration, Instant};
 
+use crate::support::Tiny;
 use eframe::egui::{self, Event, Key, MouseWheelUnit, Pos2, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use greyfield::app::browser::Browser;
 use greyfield::app::theme;
 use image::{Rgba, RgbaImage};
-use support::Tiny;
 
 const SIZE_PX: [u32; 2] = [160, 90];
 

@@ -1,18 +1,12 @@
 //! A recorded session on the screen again: the participant's pictures pixel for pixel, and the
 //! experimenter's keys.
-#![allow(clippy::expect_used)] // a test ends where something is missing
 
-#[path = "support/desk.rs"]
-mod desk;
-#[path = "support/recorded.rs"]
-#[allow(dead_code)] // every test file uses another part of it
-mod recorded;
-mod support;
-
+use crate::recorded;
 use std::cell::Cell;
 use std::rc::Rc;
 
-use desk::{SIZE_PX, WINDOW, assert_picture};
+use crate::desk::{SIZE_PX, WINDOW, assert_picture};
+use crate::support::Tiny;
 use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -21,7 +15,6 @@ use greyfield::app::replay::Replaying;
 use greyfield::app::theme;
 use greyfield::record::{Response, TrialRow};
 use greyfield::session::replay::Replay;
-use support::Tiny;
 
 struct Viewing {
     harness: Harness<'static, Replaying>,
@@ -236,7 +229,7 @@ fn under(pairs: usize, protocol: &str) -> Tiny {
 /// Both versions at once and whole, first without numbers, then with those that were given.
 #[test]
 fn a_ranking_shows_all_its_images_and_then_their_order() {
-    let protocol = include_str!("../protocols/yu-2009-ranking.toml");
+    let protocol = include_str!("../../protocols/yu-2009-ranking.toml");
     let mut viewing = Viewing::of(under(1, protocol));
     viewing.press(Key::ArrowRight);
     assert_eq!(Some(viewing.at_ns()), viewing.rows[0].question_onset_ns);
@@ -274,7 +267,7 @@ fn a_ranking_shows_all_its_images_and_then_their_order() {
 
 #[test]
 fn a_rating_shows_the_image_and_then_the_scales_with_their_points() {
-    let protocol = include_str!("../protocols/kozlowski-kautz-2007.toml");
+    let protocol = include_str!("../../protocols/kozlowski-kautz-2007.toml");
     let mut viewing = Viewing::of(under(1, protocol));
     viewing.press(Key::H);
     viewing.press(Key::ArrowRight);

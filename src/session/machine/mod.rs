@@ -1,13 +1,16 @@
 //! The state machine of one participant's session.
 
+mod flow;
+mod rules;
+
+pub(super) use rules::Rules;
+
 use super::info::SessionInfo;
 use super::trial_log::TrialLog;
 use super::{Answer, Deadline, Effect, Event, Screen, SessionTime, answers};
-use crate::digest;
-use crate::protocol::options::Scale;
-use crate::protocol::procedure::{Ask, Step, TrialStart, Until};
-use crate::protocol::{Language, Pause, Protocol, SessionPlan, Trial};
-use crate::record::{About, AboutAnswer};
+use crate::protocol::procedure::{Ask, Step, Until};
+use crate::protocol::{Language, Protocol, SessionPlan};
+use crate::record::About;
 
 /// One participant's session, from the consent to the thanks.
 ///
@@ -43,44 +46,6 @@ pub struct Session {
     /// What is not on disk yet.
     unsaved: Option<Effect>,
     stored: usize,
-}
-
-/// What the protocol says, as far as a running session needs it.
-#[derive(Debug, Clone)]
-pub(super) struct Rules {
-    pub study_id: String,
-    pub protocol_hash: String,
-    pub procedure: &'static str,
-    pub cannot_tell: bool,
-    pub scales: Vec<Scale>,
-    steps: Vec<Step>,
-    trial_start: TrialStart,
-    /// SHA-256 of the text to agree to, in the session's language.
-    consent_sha256: Option<String>,
-    asks_about: bool,
-}
-
-impl Rules {
-    fn new(protocol: &Protocol, info: &SessionInfo) -> Self {
-        let translated = protocol.translations.get(&info.language);
-        let consent = translated.unwrap_or(&protocol.texts).consent.as_ref();
-        Self {
-            study_id: protocol.study_id.to_string(),
-            protocol_hash: protocol.hash.clone(),
-            procedure: protocol.procedure.name,
-            cannot_tell: protocol.cannot_tell,
-            scales: protocol.scales.clone(),
-            steps: (protocol.procedure.steps)(protocol),
-            trial_start: protocol.trial_start(),
-            consent_sha256: consent.map(|text| digest::sha256_hex(text.as_bytes())),
-            asks_about: !protocol.metadata.is_empty(),
-        }
-    }
-
-    /// Whether this is what a trial asks.
-    pub fn asks(&self, ask: Ask) -> bool {
-        self.steps.last() == Some(&Step::Ask(ask))
-    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -352,91 +317,6 @@ impl Session {
             }
         );
         self_paced && self.shown_at.is_some()
-    }
-
-    /// Consent and questions about the participant.
-    fn preliminary(&mut self, event: Event) -> Vec<Effect> {
-        match (self.state, event) {
-            (State::Consent, Event::Decline) => {
-                self.enter(State::Declined, Screen::Declined);
-                Vec::new()
-            }
-            (State::Consent, Event::Agree) => {
-                self.about.consent_sha256 = self.rules.consent_sha256.clone();
-                self.about.consented_utc = Some(self.info.wall_clock_text(self.now));
-                if self.rules.asks_about {
-                    self.enter(State::Form, Screen::Form);
-                    return Vec::new();
-                }
-                self.tell(Vec::new())
-            }
-            (State::Form, Event::Told(answers)) => self.tell(answers),
-            _ => Vec::new(),
-        }
-    }
-
-    fn tell(&mut self, answers: Vec<AboutAnswer>) -> Vec<Effect> {
-        self.about.answers = answers;
-        self.unsaved = Some(Effect::StoreAbout(Box::new(self.about.clone())));
-        self.store()
-    }
-
-    /// The button under a page of text.
-    fn begin(&mut self) {
-        match self.state {
-            State::Instructions => self.next_trial(true),
-            State::Pause => self.offer_trial(),
-            _ => {}
-        }
-    }
-
-    /// The page before the next trial, if it has one; or the end. Nobody needs a rest
-    /// right after the instructions.
-    fn next_trial(&mut self, from_instructions: bool) {
-        let pause = self.next().map(|trial| trial.pause);
-        match pause {
-            None => self.enter(State::Closing, Screen::Closing),
-            Some(Some(Pause::Break)) if from_instructions => self.offer_trial(),
-            Some(Some(pause)) => self.enter(State::Pause, Screen::Pause(pause)),
-            Some(None) => self.offer_trial(),
-        }
-    }
-
-    fn next(&self) -> Option<&Trial> {
-        self.plan.trials.get(self.stored)
-    }
-
-    fn offer_trial(&mut self) {
-        let (next, total) = (self.stored, self.plan.trials.len());
-        match self.rules.trial_start {
-            TrialStart::Menu => self.enter(State::Start, Screen::PairMenu { next, total }),
-            TrialStart::Button => self.enter(State::Start, Screen::Ready { next, total }),
-            TrialStart::Itself => self.start_trial(),
-        }
-    }
-
-    fn start_trial(&mut self) {
-        self.trial_log.start();
-        self.enter_step(0);
-    }
-
-    fn next_step(&mut self) {
-        if let State::Step(step) = self.state {
-            self.enter_step(step + 1);
-        }
-    }
-
-    fn enter_step(&mut self, step: usize) {
-        let trial = self.stored;
-        let screen = match self.rules.steps[step] {
-            Step::Image { place, .. } => Screen::Image { trial, place },
-            Step::Grey { .. } => Screen::Grey { trial },
-            Step::Ask(Ask::Choice) => Screen::Question { trial },
-            Step::Ask(Ask::CloserToReference) => Screen::Comparison { trial },
-            Step::Ask(Ask::Ratings) => Screen::Rating { trial },
-            Step::Ask(Ask::Ranking) => Screen::Ranking { trial },
-        };
-        self.enter(State::Step(step), screen);
     }
 
     fn answer(&mut self, answer: &Answer) -> Vec<Effect> {

@@ -1,18 +1,13 @@
 //! The other procedures on the screen: what a participant sees and does in each, and the
 //! rows of it.
-#![allow(clippy::expect_used)] // a test ends where something is missing
 
-#[path = "support/desk.rs"]
-mod desk;
-mod support;
-
-use desk::{Desk, SECOND_NS, SIZE_PX};
+use crate::desk::{Desk, SECOND_NS, SIZE_PX};
+use crate::support::{PROTOCOL, Tiny};
 use eframe::egui::Key;
 use egui_kittest::kittest::Queryable as _;
 use greyfield::record::{InputDevice, Response};
 use greyfield::session::Screen;
 use greyfield::stimulus::ImageRecord;
-use support::{PROTOCOL, Tiny};
 
 /// Two pairs of one view, four different techniques.
 fn study(procedure: &str, more: &str) -> Tiny {

@@ -1,12 +1,9 @@
 //! The study's page over real results: the table, decisions, exports.
-#![allow(clippy::expect_used)] // a test ends where something is missing
 
-#[path = "support/recorded.rs"]
-mod recorded;
-mod support;
-
+use crate::recorded;
 use std::time::{Duration, Instant};
 
+use crate::support::Tiny;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Vec2};
 use egui_kittest::Harness;
@@ -14,7 +11,6 @@ use egui_kittest::kittest::Queryable as _;
 use greyfield::app::study_page::StudyPage;
 use greyfield::app::theme;
 use greyfield::record::Study;
-use support::Tiny;
 
 struct Looking {
     harness: Harness<'static, StudyPage>,

@@ -1,13 +1,11 @@
 //! The experimenter's start page over a real results folder: who comes next, what
 //! stands in the way, and a session from the first click to the rows on disk.
-#![allow(clippy::expect_used)] // a test ends where something is missing
-
-mod support;
 
 use std::cell::Cell;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
+use crate::support::Tiny;
 use eframe::egui::{self, Key, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -17,7 +15,6 @@ use greyfield::app::{Application, Setup, theme};
 use greyfield::record::read::read_folder;
 use greyfield::record::{Response, TrialRow};
 use greyfield::session::start;
-use support::Tiny;
 
 const SIZE_PX: [u32; 2] = [160, 90];
 

@@ -1,20 +1,13 @@
 //! The row a person's keys write and the row a scripted observer writes are one row.
-#![allow(clippy::expect_used)] // a test ends where something is missing
 
-#[path = "support/desk.rs"]
-mod desk;
-#[path = "support/recorded.rs"]
-#[allow(dead_code)] // every test file uses another part of it
-mod recorded;
-mod support;
-
-use desk::{Desk, SIZE_PX};
+use crate::desk::{Desk, SIZE_PX};
+use crate::recorded;
+use crate::support::Tiny;
 use eframe::egui::Key;
 use greyfield::protocol::Position;
 use greyfield::record::TrialRow;
 use greyfield::session::Answer;
 use greyfield::session::observer::Question;
-use support::Tiny;
 
 /// Presses the keys of a scripted observer at its times.
 fn by_keys(study: Tiny, name: &str) -> Vec<TrialRow> {

@@ -1,8 +1,5 @@
 //! The cost panel on a small scene: what is measured arrives, follows the controls, can be pinned,
 //! and becomes a stimulus pair that draws the same.
-#![allow(clippy::expect_used, clippy::unwrap_used)] // a test ends where something is missing
-
-mod wall;
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -17,7 +14,7 @@ use greyfield::render::{Gpu, Renderer};
 use greyfield::scene::SceneConfig;
 use greyfield::stimulus::StimulusSet;
 
-use wall::{SCENE, Wall};
+use crate::wall::{SCENE, Wall};
 
 /// The wall in two lights.
 const MORE: &str = r#"

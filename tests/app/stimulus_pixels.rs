@@ -1,6 +1,5 @@
 //! A stimulus on the screen is the file's own pixels, bit for bit, at every
 //! scale factor; grey is the level the protocol asks for.
-#![allow(clippy::expect_used)] // a test ends where something is missing
 
 use eframe::egui::{self, Vec2};
 use egui_kittest::Harness;

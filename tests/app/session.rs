@@ -1,20 +1,15 @@
 //! A participant's session in the window, by the texts a person reads: every
 //! screen, the rows, and what goes wrong.
-#![allow(clippy::expect_used)] // a test ends where something is missing
-
-#[path = "support/desk.rs"]
-mod desk;
-mod support;
 
 use std::time::Duration;
 
-use desk::{Desk, SECOND_NS, SIZE_PX, WINDOW, assert_picture};
+use crate::desk::{Desk, SECOND_NS, SIZE_PX, WINDOW, assert_picture};
+use crate::support::Tiny;
 use eframe::egui::{self, Key, Modifiers, Vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use greyfield::protocol::Position;
 use greyfield::record::{InputDevice, OnsetMethod};
 use greyfield::session::Screen;
-use support::Tiny;
 
 #[test]
 fn a_person_reads_and_clicks_through_a_whole_session() {
