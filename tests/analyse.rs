@@ -163,7 +163,8 @@ fn hard_counts_print_no_nonsense() {
     let json: Value = serde_json::from_str(&report(&[path, "--format", "json"])).unwrap();
     let rows = json["conditions"].as_array().unwrap();
     assert_eq!(rows[0]["p_exact"], Value::Null);
-    assert_eq!(rows[0]["p_exact_status"], "no votes");
+    assert_eq!(rows[0]["p_exact_status"], "degenerate");
+    assert_eq!(rows[0]["p_exact_reason"], "no votes");
     assert_eq!(rows[1]["p_exact"], 1.0);
     // 2 · 2^−10⁹.
     let expected = (1.0 - 1e9) * std::f64::consts::LOG10_2;

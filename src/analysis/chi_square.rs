@@ -40,7 +40,7 @@ pub const STATISTIC: ConditionStatistic = ConditionStatistic {
 /// Without votes.
 pub fn chi_square(votes: Votes) -> Result<f64, Undefined> {
     if votes.total() == 0 {
-        return Err(Undefined::NoVotes);
+        return Err(Undefined::NO_VOTES);
     }
     let difference = f64::from(votes.a) - f64::from(votes.b);
     Ok(difference * difference / f64::from(votes.total()))
@@ -73,6 +73,6 @@ mod tests {
 
     #[test]
     fn no_votes_no_value() {
-        assert_eq!(chi_square(Votes::default()), Err(Undefined::NoVotes));
+        assert_eq!(chi_square(Votes::default()), Err(Undefined::NO_VOTES));
     }
 }

@@ -35,7 +35,7 @@ pub const STATISTIC: ConditionStatistic = ConditionStatistic {
 /// Without votes.
 pub fn interval(votes: Votes, alpha: Alpha) -> Result<Interval, Undefined> {
     if votes.total() == 0 {
-        return Err(Undefined::NoVotes);
+        return Err(Undefined::NO_VOTES);
     }
     let (low, high) = tails::clopper_pearson(votes.b, votes.total(), alpha);
     Ok(Interval { low, high })
@@ -58,7 +58,7 @@ mod tests {
     fn no_votes_no_interval() {
         assert_eq!(
             interval(Votes::default(), Alpha::FIVE_PERCENT),
-            Err(Undefined::NoVotes)
+            Err(Undefined::NO_VOTES)
         );
     }
 }

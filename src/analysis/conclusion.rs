@@ -22,13 +22,13 @@ pub fn p_text(p: Probability) -> String {
 #[must_use]
 pub fn sentences(data: &Dataset, settings: &Settings) -> Vec<String> {
     let mut sentences = vec![who(data)];
-    let tested = main_family(data).size();
+    let tested = main_family(data, settings).size();
     if tested == 0 {
         sentences.push("No condition has a vote, so nothing was tested.".to_owned());
         return sentences;
     }
     for test in tests() {
-        let family = Family::new(&test, &holm::CORRECTION, data);
+        let family = Family::new(&test, &holm::CORRECTION, data, settings);
         let name = if test.p_key == "p_exact" {
             "exact binomial test"
         } else {
@@ -129,7 +129,7 @@ fn listed(ids: &[&str]) -> String {
 
 /// One sentence a hypothesis the input names, in order of appearance.
 fn by_hypothesis(data: &Dataset, settings: &Settings) -> Vec<String> {
-    let family = main_family(data);
+    let family = main_family(data, settings);
     let mut names: Vec<&str> = Vec::new();
     for name in data
         .conditions

@@ -20,6 +20,8 @@ pub enum Verdict {
     OnlyUncorrected,
     /// Neither.
     NotSignificant,
+    /// Not of the declared family; its p is uncorrected.
+    Exploratory,
     /// There are no votes.
     NoVotes,
 }
@@ -32,6 +34,7 @@ impl Verdict {
             Self::Significant => "significant",
             Self::OnlyUncorrected => "only uncorrected",
             Self::NotSignificant => "not significant",
+            Self::Exploratory => "outside the family",
             Self::NoVotes => "no votes",
         }
     }
@@ -47,15 +50,29 @@ pub struct Family {
 }
 
 impl Family {
-    /// One test and one correction. Conditions without votes are not tested and do not count.
+    /// One test and one correction. Conditions without votes are not tested and do not count;
+    /// those outside the declared family are tested and not corrected.
     #[must_use]
-    pub fn new(test: &ConditionTest, correction: &Correction, data: &Dataset) -> Self {
+    pub fn new(
+        test: &ConditionTest,
+        correction: &Correction,
+        data: &Dataset,
+        settings: &Settings,
+    ) -> Self {
+        const OUTSIDE: Undefined = Undefined::not_available("not of the declared family");
         let p: Vec<_> = data.conditions.iter().map(test.p).collect();
-        let tested: Vec<Probability> = p.iter().filter_map(|p| p.ok()).collect();
+        let of_family = |i: usize| settings.in_family(&data.conditions[i].id);
+        let tested: Vec<Probability> = (p.iter().enumerate())
+            .filter(|(i, _)| of_family(*i))
+            .filter_map(|(_, p)| p.ok())
+            .collect();
         let mut adjusted = (correction.adjust)(&tested).into_iter();
-        let corrected = p
-            .iter()
-            .map(|p| p.map(|p| adjusted.next().unwrap_or(p)))
+        let corrected = (p.iter().enumerate())
+            .map(|(i, p)| match p {
+                Ok(_) if !of_family(i) => Err(OUTSIDE),
+                Ok(p) => Ok(adjusted.next().unwrap_or(*p)),
+                Err(why) => Err(*why),
+            })
             .collect();
         Self { p, corrected }
     }
@@ -63,7 +80,7 @@ impl Family {
     /// Number of tests.
     #[must_use]
     pub fn size(&self) -> usize {
-        self.p.iter().filter(|p| p.is_ok()).count()
+        self.corrected.iter().filter(|p| p.is_ok()).count()
     }
 
     /// The verdict on one condition.
@@ -71,6 +88,7 @@ impl Family {
     pub fn verdict(&self, condition: usize, settings: &Settings) -> Verdict {
         match (self.p[condition], self.corrected[condition]) {
             (Ok(_), Ok(corrected)) if corrected.at_most(settings.alpha) => Verdict::Significant,
+            (Ok(_), Err(_)) => Verdict::Exploratory,
             (Ok(p), _) if p.at_most(settings.alpha) => Verdict::OnlyUncorrected,
             (Ok(_), _) => Verdict::NotSignificant,
             (Err(_), _) => Verdict::NoVotes,
@@ -87,13 +105,13 @@ pub fn tests() -> impl Iterator<Item = ConditionTest> {
 
 /// The family the verdicts rest on: exact p, Holm.
 #[must_use]
-pub fn main_family(data: &Dataset) -> Family {
+pub fn main_family(data: &Dataset, settings: &Settings) -> Family {
     let test = ConditionTest {
         p_key: "p_exact",
         short: "exact",
         p: |condition| exact_binomial::exact_p(condition.votes),
     };
-    Family::new(&test, &super::holm::CORRECTION, data)
+    Family::new(&test, &super::holm::CORRECTION, data, settings)
 }
 
 /// The wide table.
@@ -119,14 +137,14 @@ pub fn table(data: &Dataset, settings: &Settings) -> Table {
                 style: Style::P,
                 group: Group::Tests,
             });
-            let family = Family::new(&test, correction, data);
+            let family = Family::new(&test, correction, data, settings);
             for (row, p) in rows.iter_mut().zip(family.corrected) {
                 row.push(Cell::or_undefined(p, Cell::Probability));
             }
         }
     }
     columns.push(Column::new("verdict", "verdict", Style::Text, Group::Tests));
-    let family = main_family(data);
+    let family = main_family(data, settings);
     for (i, row) in rows.iter_mut().enumerate() {
         row.push(Cell::Text(family.verdict(i, settings).text().to_owned()));
     }
@@ -169,7 +187,7 @@ fn base_cells(condition: &ConditionData, data: &Dataset) -> Vec<Cell> {
     if asks(data) {
         cells.push(Cell::Text(condition.hypothesis.clone().unwrap_or_default()));
     }
-    let share = condition.votes.share_b().ok_or(Undefined::NoVotes);
+    let share = condition.votes.share_b().ok_or(Undefined::NO_VOTES);
     cells.extend([
         Cell::Text(condition.technique_a.clone()),
         Cell::Text(condition.technique_b.clone()),

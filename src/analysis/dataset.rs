@@ -93,8 +93,17 @@ impl OrderCounts {
     }
 }
 
+/// What a publication says of a condition, digit for digit as it was printed.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Published {
+    /// The chi-square statistic.
+    pub chi_square: Option<String>,
+    /// Its p.
+    pub p: Option<String>,
+}
+
 /// One condition: two techniques on one scene, and how the votes fell.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ConditionData {
     /// Condition id.
     pub id: String,
@@ -104,6 +113,10 @@ pub struct ConditionData {
     pub technique_b: String,
     /// What it asks (`H1`), where the input says.
     pub hypothesis: Option<String>,
+    /// The scene both images show, where the input says.
+    pub scene: Option<String>,
+    /// What was published of it, to be recomputed.
+    pub published: Published,
     /// The votes.
     pub votes: Votes,
     /// By order and position; `None` when only counts are known.
@@ -134,6 +147,96 @@ impl Answer {
     }
 }
 
+/// Ratings of single images. A condition here is what was rated in several versions: a scene in
+/// one light.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Ratings {
+    /// Ids of the conditions.
+    pub conditions: Vec<String>,
+    /// The techniques, in order of appearance.
+    pub techniques: Vec<String>,
+    /// The scales.
+    pub scales: Vec<String>,
+    /// The ratings; one a participant, condition, technique and scale.
+    pub answers: Vec<Rating>,
+}
+
+/// One rating; the numbers are indices into [`Ratings`] and [`Dataset::participants`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rating {
+    /// Who.
+    pub participant: u32,
+    /// Of which scene.
+    pub condition: u32,
+    /// Of which of its versions.
+    pub technique: u32,
+    /// On which scale.
+    pub scale: u32,
+    /// Points, the more the better.
+    pub value: f32,
+}
+
+/// Rank orders of the versions of a scene.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Rankings {
+    /// Ids of the conditions.
+    pub conditions: Vec<String>,
+    /// The techniques, in order of appearance.
+    pub techniques: Vec<String>,
+    /// The ranks; one a participant, condition and technique.
+    pub answers: Vec<Rank>,
+}
+
+/// The rank of one version; the numbers are indices into [`Rankings`] and
+/// [`Dataset::participants`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rank {
+    /// Whose ranking.
+    pub participant: u32,
+    /// Of which scene.
+    pub condition: u32,
+    /// Which of its versions.
+    pub technique: u32,
+    /// 1 is the best; ties have the mean of their places.
+    pub rank: f32,
+}
+
+/// What the study's own protocol says, where the input is a results folder.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+pub struct StudyFacts {
+    /// Its id.
+    pub id: String,
+    /// SHA-256 of the protocol's file.
+    pub protocol_sha256: String,
+    /// What participants were asked, in the protocol's own language.
+    pub question: String,
+    /// What a trial was made of (`no-reference`).
+    pub procedure: String,
+    /// Who saw which order (`latin`, `within`).
+    pub design: String,
+    /// Seed of the design.
+    pub seed: u64,
+    /// How many participants were planned.
+    pub planned_participants: u32,
+    /// Hypotheses by name, in the protocol's words.
+    pub hypotheses: Vec<(String, String)>,
+    /// Versions of Greyfield that wrote the rows.
+    pub versions: Vec<String>,
+    /// What participants told of themselves: question, and answers with their number.
+    pub participants_told: Vec<(String, Vec<(String, u32)>)>,
+}
+
+/// Data left out by a rule that was laid down before.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Exclusion {
+    /// The rule in words, with its threshold and where it was laid down.
+    pub rule: String,
+    /// Whom it touched, by id.
+    pub participants: Vec<String>,
+    /// How many trials it left out.
+    pub trials: u64,
+}
+
 /// A file the data came from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Source {
@@ -160,6 +263,14 @@ pub struct Dataset {
     pub participants: Vec<String>,
     /// Single answers, in the order read; empty when only counts are known.
     pub answers: Vec<Answer>,
+    /// Ratings of single images; empty where nobody rated.
+    pub ratings: Ratings,
+    /// Rank orders; empty where nobody ranked.
+    pub rankings: Rankings,
+    /// What the study's protocol says, where it is known.
+    pub study: Option<StudyFacts>,
+    /// What was left out by rule; a rule that touched nobody is here, too.
+    pub exclusions: Vec<Exclusion>,
     /// What a reader of the results should know about the input: left-out rows, repaired lines.
     pub notes: Vec<String>,
 }

@@ -33,7 +33,7 @@ pub const STATISTIC: ConditionStatistic = ConditionStatistic {
 /// Without votes.
 pub fn cohens_g(votes: Votes) -> Result<f64, Undefined> {
     if votes.total() == 0 {
-        return Err(Undefined::NoVotes);
+        return Err(Undefined::NO_VOTES);
     }
     // (b − a)/2n, so that an even split is exactly 0.
     Ok((f64::from(votes.b) - f64::from(votes.a)) / (2.0 * f64::from(votes.total())))

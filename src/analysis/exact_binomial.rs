@@ -29,7 +29,7 @@ pub const STATISTIC: ConditionStatistic = ConditionStatistic {
 /// Without votes.
 pub fn exact_p(votes: Votes) -> Result<Probability, Undefined> {
     if votes.total() == 0 {
-        return Err(Undefined::NoVotes);
+        return Err(Undefined::NO_VOTES);
     }
     Ok(two_sided_even(votes.a, votes.total()))
 }

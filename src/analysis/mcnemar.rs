@@ -6,9 +6,8 @@ use std::collections::BTreeMap;
 use super::dataset::{Dataset, Votes};
 use super::exact_binomial::exact_p;
 use super::holm;
-use super::settings::Settings;
-use super::statistic::{About, Section, SectionTable, StudyStatistic};
-use super::table::{Cell, Column, Group, Style, Table, Undefined};
+use super::statistic::{About, Context, Section, SectionTable, StudyStatistic};
+use super::table::{Cell, Column, Group, Status, Style, Table, Undefined};
 
 /// With more pairs of conditions than this the table would drown the report.
 const MOST_PAIRS: usize = 200;
@@ -34,7 +33,8 @@ struct Pair {
     concordant: u32,
 }
 
-fn section(data: &Dataset, settings: &Settings) -> Option<Section> {
+fn section(context: &Context<'_>) -> Option<Section> {
+    let Context { data, settings, .. } = *context;
     if !data.has_answers() {
         return None;
     }
@@ -76,6 +76,7 @@ fn section(data: &Dataset, settings: &Settings) -> Option<Section> {
     Some(Section {
         id: "mcnemar",
         title: "Same techniques, another condition",
+        status: Status::Ok,
         findings: vec![format!(
             "{} of {} pairs of conditions with the same two techniques differ within participants after Holm's correction at alpha = {}.",
             significant,
@@ -107,7 +108,7 @@ fn columns() -> Vec<Column> {
 }
 
 fn test(discordant: Votes) -> Result<super::tails::Probability, Undefined> {
-    exact_p(discordant).map_err(|_| Undefined::NothingToCompare)
+    exact_p(discordant).map_err(|_| Undefined::NOTHING_TO_COMPARE)
 }
 
 /// Pairs (i, j), i < j, of conditions that compare the same two techniques in either base order;
@@ -184,6 +185,7 @@ fn compare(choices: &[Vec<(u32, bool)>], left: usize, right: usize, turned: bool
 mod tests {
     use super::*;
     use crate::analysis::dataset::{Answer, ConditionData, Order, OrderCounts};
+    use crate::analysis::settings::Settings;
     use crate::protocol::Position;
 
     fn condition(id: &str, a: &str, b: &str) -> ConditionData {
@@ -191,9 +193,8 @@ mod tests {
             id: id.into(),
             technique_a: a.into(),
             technique_b: b.into(),
-            hypothesis: None,
-            votes: Votes::default(),
             orders: Some(OrderCounts::default()),
+            ..ConditionData::default()
         }
     }
 
@@ -229,7 +230,7 @@ mod tests {
             answers,
             ..Dataset::default()
         };
-        let section = section(&data, &Settings::default()).unwrap();
+        let section = section(&Context::of(&data, &Settings::default())).unwrap();
         let row = &section.tables[0].table.rows[0];
         assert_eq!(row[2..5], [Cell::Count(9), Cell::Count(1), Cell::Count(2)]);
         // 2 (1 + 10) / 2^10.
@@ -254,6 +255,6 @@ mod tests {
             }],
             ..Dataset::default()
         };
-        assert!(section(&data, &Settings::default()).is_none());
+        assert!(section(&Context::of(&data, &Settings::default())).is_none());
     }
 }

@@ -29,7 +29,7 @@ pub use dataset::Dataset;
 pub use settings::Settings;
 pub use tails::Alpha;
 
-use statistic::Section;
+use statistic::{Context, Section, Watch};
 use table::Table;
 
 /// Everything the report tells.
@@ -50,12 +50,23 @@ pub struct Analysis {
 /// Runs every statistic of the registry.
 #[must_use]
 pub fn analyse(data: Dataset, settings: Settings) -> Analysis {
+    analyse_watched(data, settings, &())
+}
+
+/// The same, and tells somebody how far long work is.
+#[must_use]
+pub fn analyse_watched(data: Dataset, settings: Settings, watch: &dyn Watch) -> Analysis {
+    let context = Context {
+        data: &data,
+        settings: &settings,
+        watch,
+    };
     Analysis {
         conditions: conditions::table(&data, &settings),
         conclusion: conclusion::sentences(&data, &settings),
         sections: registry::STUDY_STATISTICS
             .iter()
-            .filter_map(|statistic| (statistic.section)(&data, &settings))
+            .filter_map(|statistic| (statistic.section)(&context))
             .collect(),
         settings,
         data,

@@ -3,8 +3,8 @@
 use super::dataset::{ConditionData, Dataset, OrderCounts, Votes};
 use super::exact_binomial::exact_p;
 use super::settings::Settings;
-use super::statistic::{About, ConditionStatistic, Section, SectionTable, StudyStatistic};
-use super::table::{Cell, Column, Group, Style, Table, Undefined};
+use super::statistic::{About, ConditionStatistic, Context, Section, SectionTable, StudyStatistic};
+use super::table::{Cell, Column, Group, Status, Style, Table, Undefined};
 use super::wilson;
 
 const ABOUT: About = About {
@@ -38,7 +38,7 @@ pub const POOLED: StudyStatistic = StudyStatistic {
 
 fn condition_cells(condition: &ConditionData, _: &Settings) -> Vec<Cell> {
     let Some(orders) = condition.orders else {
-        return vec![Cell::Undefined(Undefined::CountsOnly); BY_CONDITION.columns.len()];
+        return vec![Cell::Undefined(Undefined::COUNTS_ONLY); BY_CONDITION.columns.len()];
     };
     let ((shown_ab, shown_ba), (first, second)) = (orders.orders(), orders.positions());
     let p = exact_p(positions_as_votes(&orders));
@@ -74,7 +74,8 @@ pub fn pooled(data: &Dataset) -> Votes {
         })
 }
 
-fn section(data: &Dataset, settings: &Settings) -> Option<Section> {
+fn section(context: &Context<'_>) -> Option<Section> {
+    let Context { data, settings, .. } = *context;
     if !data.has_answers() {
         return None;
     }
@@ -102,6 +103,7 @@ fn section(data: &Dataset, settings: &Settings) -> Option<Section> {
     Some(Section {
         id: "position_bias",
         title: "Position bias",
+        status: Status::Ok,
         findings,
         tables: vec![SectionTable {
             id: "by_participant",
@@ -194,9 +196,9 @@ mod tests {
                 id: "c".into(),
                 technique_a: "none".into(),
                 technique_b: "crytek24".into(),
-                hypothesis: None,
                 votes: orders.votes(),
                 orders: Some(orders),
+                ..ConditionData::default()
             }],
             participants: vec!["P1".into(), "P2".into()],
             answers,
@@ -209,7 +211,7 @@ mod tests {
         let data = always_first();
         assert_eq!(data.conditions[0].votes, Votes { a: 1, b: 1 });
         assert_eq!(pooled(&data), Votes { a: 0, b: 2 });
-        let section = section(&data, &Settings::default()).unwrap();
+        let section = section(&Context::of(&data, &Settings::default())).unwrap();
         assert!(section.findings[0].contains("2 of 2"), "{section:?}");
         assert!(section.findings[1].contains("equally often"), "{section:?}");
         assert_eq!(section.tables[0].table.rows.len(), 2);
@@ -220,12 +222,12 @@ mod tests {
         let mut data = always_first();
         data.answers.clear();
         data.conditions[0].orders = None;
-        assert!(section(&data, &Settings::default()).is_none());
+        assert!(section(&Context::of(&data, &Settings::default())).is_none());
         let cells = condition_cells(&data.conditions[0], &Settings::default());
         assert!(
             cells
                 .iter()
-                .all(|cell| *cell == Cell::Undefined(Undefined::CountsOnly))
+                .all(|cell| *cell == Cell::Undefined(Undefined::COUNTS_ONLY))
         );
     }
 }

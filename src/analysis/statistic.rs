@@ -3,7 +3,7 @@
 
 use super::dataset::{ConditionData, Dataset};
 use super::settings::Settings;
-use super::table::{Cell, Column, Table, Undefined};
+use super::table::{Cell, Column, Status, Table, Undefined};
 use super::tails::Probability;
 
 /// What a statistic is and where it comes from.
@@ -59,8 +59,42 @@ pub struct StudyStatistic {
     /// What it is.
     pub about: About,
     /// Its section of the report; `None` where the data cannot tell.
-    pub section: fn(&Dataset, &Settings) -> Option<Section>,
+    pub section: fn(&Context<'_>) -> Option<Section>,
 }
+
+/// What a statistic of the whole study works on.
+#[derive(Clone, Copy)]
+pub struct Context<'a> {
+    /// What went in.
+    pub data: &'a Dataset,
+    /// What was chosen.
+    pub settings: &'a Settings,
+    /// Is told how far long work is.
+    pub watch: &'a dyn Watch,
+}
+
+impl<'a> Context<'a> {
+    /// With nobody watching.
+    #[must_use]
+    pub fn of(data: &'a Dataset, settings: &'a Settings) -> Self {
+        Self {
+            data,
+            settings,
+            watch: &(),
+        }
+    }
+}
+
+/// Is told how far long work is, from any thread: a progress bar, or nobody.
+pub trait Watch: Sync {
+    /// Work of so many steps begins.
+    fn begin(&self, _what: &'static str, _steps: u64) {}
+    /// One step is done.
+    fn step(&self) {}
+}
+
+/// Nobody watches.
+impl Watch for () {}
 
 /// One part of the report.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,6 +103,8 @@ pub struct Section {
     pub id: &'static str,
     /// Heading.
     pub title: &'static str,
+    /// How its main estimate stands; the findings say why.
+    pub status: Status,
     /// Findings, one sentence or more each.
     pub findings: Vec<String>,
     /// Tables, each with a short name and a caption.

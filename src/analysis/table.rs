@@ -4,25 +4,88 @@ use std::borrow::Cow;
 
 use super::tails::Probability;
 
+/// How an estimate stands. Whatever is not [`Ok`](Status::Ok) has no number, and says why.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// It is there, and finite.
+    Ok,
+    /// The data do not say what it needs to know (counts have no positions).
+    NotAvailable,
+    /// The data leave nothing to estimate from: no votes, no variance, nobody who differs.
+    Degenerate,
+    /// The likelihood has no maximum at a finite value.
+    NoFiniteEstimate,
+    /// The techniques fall into parts that were never compared with each other.
+    Disconnected,
+}
+
+impl Status {
+    /// In words, as it stands in tables and files.
+    #[must_use]
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::Ok => "ok",
+            Self::NotAvailable => "not available",
+            Self::Degenerate => "degenerate",
+            Self::NoFiniteEstimate => "no finite estimate",
+            Self::Disconnected => "disconnected",
+        }
+    }
+}
+
 /// Why there is no value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Undefined {
-    /// The condition has no votes.
-    NoVotes,
-    /// Needs single answers, the input has only counts.
-    CountsOnly,
-    /// No participant answered both ways.
-    NothingToCompare,
+pub struct Undefined {
+    /// How it stands; never [`Status::Ok`].
+    pub status: Status,
+    /// The reason in words.
+    pub reason: &'static str,
 }
 
 impl Undefined {
-    /// The reason in words.
+    /// The condition has no votes.
+    pub const NO_VOTES: Self = Self::degenerate("no votes");
+    /// Needs single answers, the input has only counts.
+    pub const COUNTS_ONLY: Self =
+        Self::not_available("needs single answers, the input has only counts");
+    /// No participant answered both ways.
+    pub const NOTHING_TO_COMPARE: Self =
+        Self::degenerate("no participant chose differently in the two conditions");
+
+    /// The data leave nothing to estimate from.
     #[must_use]
-    pub fn reason(self) -> &'static str {
-        match self {
-            Self::NoVotes => "no votes",
-            Self::CountsOnly => "needs single answers, the input has only counts",
-            Self::NothingToCompare => "no participant chose differently in the two conditions",
+    pub const fn degenerate(reason: &'static str) -> Self {
+        Self {
+            status: Status::Degenerate,
+            reason,
+        }
+    }
+
+    /// The data do not say what it needs to know.
+    #[must_use]
+    pub const fn not_available(reason: &'static str) -> Self {
+        Self {
+            status: Status::NotAvailable,
+            reason,
+        }
+    }
+
+    /// The likelihood has no maximum at a finite value.
+    #[must_use]
+    pub const fn no_finite_estimate(reason: &'static str) -> Self {
+        Self {
+            status: Status::NoFiniteEstimate,
+            reason,
+        }
+    }
+
+    /// Parts were never compared with each other.
+    #[must_use]
+    pub const fn disconnected(reason: &'static str) -> Self {
+        Self {
+            status: Status::Disconnected,
+            reason,
         }
     }
 }
@@ -88,6 +151,8 @@ pub enum Group {
     Tests,
     /// How large the preference is.
     Effects,
+    /// Evidence for or against an even split that is no p-value.
+    Evidence,
     /// Position chosen and order shown.
     Position,
 }

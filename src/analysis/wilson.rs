@@ -36,7 +36,7 @@ pub const STATISTIC: ConditionStatistic = ConditionStatistic {
 /// Without votes.
 pub fn interval(votes: Votes, alpha: Alpha) -> Result<Interval, Undefined> {
     if votes.total() == 0 {
-        return Err(Undefined::NoVotes);
+        return Err(Undefined::NO_VOTES);
     }
     let low = |k: u32| {
         let (k, n, z) = (

@@ -63,7 +63,10 @@ pub fn run(args: &AnalyseArgs) -> Result<(), Failure> {
         include_pilot: args.include_pilot,
         include_rejected: args.include_rejected,
     };
-    let settings = Settings { alpha: args.alpha };
+    let settings = Settings {
+        alpha: args.alpha,
+        ..Settings::default()
+    };
     let start = Instant::now();
     let data = input::read(&args.inputs, options).map_err(Failure::bad_input)?;
     let read = Instant::now();

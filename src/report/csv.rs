@@ -75,8 +75,8 @@ mod tests {
                 ],
                 vec![
                     Cell::Text("c".into()),
-                    Cell::Undefined(Undefined::NoVotes),
-                    Cell::Undefined(Undefined::NoVotes),
+                    Cell::Undefined(Undefined::NO_VOTES),
+                    Cell::Undefined(Undefined::NO_VOTES),
                 ],
             ],
         };

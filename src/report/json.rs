@@ -14,7 +14,7 @@ use crate::analysis::table::{Cell, Column, Table};
 use crate::analysis::tails::Probability;
 
 /// Version of this layout.
-const SCHEMA_VERSION: u32 = 1;
+const SCHEMA_VERSION: u32 = 2;
 
 #[derive(Serialize)]
 struct Report<'a> {
@@ -33,6 +33,7 @@ struct Report<'a> {
 #[derive(Serialize)]
 struct SectionJson<'a> {
     id: &'static str,
+    status: &'static str,
     findings: &'a [String],
     tables: Tables<'a>,
 }
@@ -50,6 +51,7 @@ pub fn render(analysis: &Analysis) -> Result<String, ReportError> {
             .iter()
             .map(|section| SectionJson {
                 id: section.id,
+                status: section.status.text(),
                 findings: &section.findings,
                 tables: Tables(section),
             })
@@ -118,7 +120,8 @@ impl Serialize for Row<'_> {
                     } else {
                         map.serialize_entry(key, &None::<f64>)?;
                     }
-                    map.serialize_entry(&format!("{key}_status"), why.reason())?;
+                    map.serialize_entry(&format!("{key}_status"), why.status.text())?;
+                    map.serialize_entry(&format!("{key}_reason"), why.reason)?;
                 }
             }
         }

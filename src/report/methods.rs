@@ -8,7 +8,7 @@ use crate::analysis::conditions::main_family;
 pub fn paragraph(analysis: &Analysis) -> String {
     let alpha = analysis.settings.alpha.get();
     let confidence = analysis.settings.alpha.confidence_percent();
-    let tested = main_family(&analysis.data).size();
+    let tested = main_family(&analysis.data, &analysis.settings).size();
     let mut text = format!(
         "In each condition the number of participants who chose either image was compared with an even split by an exact two-sided binomial test and by a chi-square test with one degree of freedom and no continuity correction. Shares are given with {confidence} % score intervals (Wilson, 1927) and exact intervals (Clopper & Pearson, 1934), effect sizes as Cohen's g and w (Cohen, 1988). "
     );

@@ -132,9 +132,9 @@ pub fn reasons(table: &Table) -> Vec<&'static str> {
     let mut reasons: Vec<&'static str> = Vec::new();
     for cell in table.rows.iter().flatten() {
         if let Cell::Undefined(why) = cell
-            && !reasons.contains(&why.reason())
+            && !reasons.contains(&why.reason)
         {
-            reasons.push(why.reason());
+            reasons.push(why.reason);
         }
     }
     reasons

@@ -73,7 +73,7 @@ impl Counts {
                     a: votes(&row, votes_a)?,
                     b: votes(&row, votes_b)?,
                 },
-                orders: None,
+                ..ConditionData::default()
             };
             if condition.technique_a == condition.technique_b {
                 return Err(row.row_error(format!(

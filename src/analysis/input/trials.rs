@@ -215,6 +215,7 @@ impl Trials {
                     hypothesis: pair.hypothesis.clone(),
                     votes: pair.counts.votes(),
                     orders: Some(pair.counts),
+                    ..ConditionData::default()
                 }
             })
             .collect();

@@ -90,7 +90,7 @@ fn choices(page: &mut String, analysis: &Analysis) {
 }
 
 fn tests(page: &mut String, analysis: &Analysis) {
-    let family = main_family(&analysis.data);
+    let family = main_family(&analysis.data, &analysis.settings);
     let strong: Vec<bool> = (0..analysis.data.conditions.len())
         .map(|i| family.verdict(i, &analysis.settings) == Verdict::Significant)
         .collect();
