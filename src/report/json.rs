@@ -4,13 +4,13 @@ use serde::ser::{SerializeMap, SerializeSeq};
 use serde::{Serialize, Serializer};
 
 use super::csv::interval_keys;
-use super::{ReportError, VERSION};
+use super::{ReportError, VERSION, methods};
 use crate::analysis::Analysis;
-use crate::analysis::dataset::Source;
+use crate::analysis::dataset::{Exclusion, Source, StudyFacts};
 use crate::analysis::registry;
 use crate::analysis::settings::Settings;
 use crate::analysis::statistic::{About, Section};
-use crate::analysis::table::{Cell, Column, Table};
+use crate::analysis::table::{Cell, Column, Status, Table};
 use crate::analysis::tails::Probability;
 
 /// Version of this layout.
@@ -25,6 +25,9 @@ struct Report<'a> {
     /// One object a condition.
     conditions: Rows<'a>,
     sections: Vec<SectionJson<'a>>,
+    study: &'a Option<StudyFacts>,
+    exclusions: &'a [Exclusion],
+    methods: Vec<String>,
     statistics: Vec<About>,
     inputs: &'a [Source],
     notes: &'a [String],
@@ -56,6 +59,9 @@ pub fn render(analysis: &Analysis) -> Result<String, ReportError> {
                 tables: Tables(section),
             })
             .collect(),
+        study: &analysis.data.study,
+        exclusions: &analysis.data.exclusions,
+        methods: methods::paragraphs(analysis),
         statistics: registry::abouts(),
         inputs: &analysis.data.sources,
         notes: &analysis.data.notes,
@@ -100,8 +106,12 @@ struct Row<'a> {
 impl Serialize for Row<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
+        let mut status = Status::Ok;
         for (column, cell) in self.columns.iter().zip(self.cells) {
             let key = column.key.as_ref();
+            if let Cell::Undefined(why) = cell {
+                status = status.max(why.status);
+            }
             match cell {
                 Cell::Text(text) => map.serialize_entry(key, text)?,
                 Cell::Count(count) => map.serialize_entry(key, count)?,
@@ -124,6 +134,10 @@ impl Serialize for Row<'_> {
                     map.serialize_entry(&format!("{key}_reason"), why.reason)?;
                 }
             }
+        }
+        // A table with a status of its own says it in the same place.
+        if !self.columns.iter().any(|column| column.key == "status") {
+            map.serialize_entry("status", status.text())?;
         }
         map.end()
     }

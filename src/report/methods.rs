@@ -4,8 +4,12 @@ use super::VERSION;
 use crate::analysis::Analysis;
 use crate::analysis::conditions::main_family;
 
-/// The paragraph; its sources stand in the table of statistics.
-pub fn paragraph(analysis: &Analysis) -> String {
+/// The paragraphs; their sources stand in the table of statistics.
+pub fn paragraphs(analysis: &Analysis) -> Vec<String> {
+    vec![paragraph(analysis)]
+}
+
+fn paragraph(analysis: &Analysis) -> String {
     let alpha = analysis.settings.alpha.get();
     let confidence = analysis.settings.alpha.confidence_percent();
     let tested = main_family(&analysis.data, &analysis.settings).size();

@@ -10,13 +10,18 @@ pub mod cost;
 mod csv;
 pub mod error_picture;
 mod figure;
+mod files;
 mod html;
 mod json;
 mod markup;
 mod methods;
 mod number;
+mod raster;
+mod study_figures;
 mod svg;
 mod text;
+
+pub use files::{ReportFile, files};
 
 use crate::analysis::Analysis;
 
@@ -39,6 +44,9 @@ pub enum ReportError {
     /// The CSV writer gave up.
     #[error("the CSV table cannot be written: {0}")]
     Csv(#[from] ::csv::Error),
+    /// A figure could not be made into pixels.
+    #[error("the figure cannot be drawn as pixels: {0}")]
+    Figure(String),
     /// The JSON writer gave up.
     #[error("the JSON report cannot be written: {0}")]
     Json(#[from] serde_json::Error),

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::VERSION;
 use super::number::{align_decimals, shown, width};
 use crate::analysis::Analysis;
-use crate::analysis::table::{Cell, Group, Style, Table};
+use crate::analysis::table::{Cell, Group, Status, Style, Table};
 
 /// Sentences are wrapped here; tables are as wide as they need.
 const LINE: usize = 96;
@@ -36,18 +36,28 @@ pub fn render(analysis: &Analysis) -> String {
             &[Group::Key, Group::Effects],
         ),
         (
+            "Evidence (Bayes factor against an even split; anytime-valid test)".to_owned(),
+            &[Group::Key, Group::Evidence],
+        ),
+        (
             "Order shown and position chosen".to_owned(),
             &[Group::Key, Group::Position],
         ),
     ] {
-        if groups.contains(&Group::Position) && !has_answers {
+        let part = analysis.conditions.only(groups);
+        let says_nothing = part.rows.is_empty() || part.columns.len() < 2;
+        if says_nothing || (groups.contains(&Group::Position) && !has_answers) {
             continue;
         }
         heading(&mut out, &title);
-        table(&mut out, &analysis.conditions.only(groups));
+        table(&mut out, &part);
     }
+    exclusions(&mut out, analysis);
     for section in &analysis.sections {
         heading(&mut out, section.title);
+        if section.status != Status::Ok {
+            let _ = writeln!(out, "Status: {}", section.status.text());
+        }
         for finding in &section.findings {
             paragraph(&mut out, finding);
         }
@@ -58,6 +68,22 @@ pub fn render(analysis: &Analysis) -> String {
     }
     inputs(&mut out, analysis);
     out
+}
+
+/// What rules laid down before have left out.
+fn exclusions(out: &mut String, analysis: &Analysis) {
+    if analysis.data.exclusions.is_empty() {
+        return;
+    }
+    heading(out, "Left out by rule");
+    for one in &analysis.data.exclusions {
+        let who = match one.participants.len() {
+            0 => "nobody".to_owned(),
+            1..=12 => one.participants.join(", "),
+            many => format!("{many} participants"),
+        };
+        paragraph(out, &format!("{}: {who}, {} trials", one.rule, one.trials));
+    }
 }
 
 fn heading(out: &mut String, title: &str) {
