@@ -128,6 +128,8 @@ impl Cell {
 pub enum Style {
     /// Left-aligned words.
     Text,
+    /// Left-aligned signs that are no words: a hash.
+    Code,
     /// Whole numbers.
     Count,
     /// A number with this many decimals.

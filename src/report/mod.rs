@@ -8,6 +8,7 @@ pub mod canvas;
 pub mod colour_map;
 pub mod cost;
 mod csv;
+pub mod document;
 pub mod error_picture;
 mod figure;
 mod files;
@@ -17,7 +18,7 @@ mod markup;
 mod methods;
 mod number;
 mod raster;
-mod study_figures;
+pub mod study_figures;
 mod svg;
 mod text;
 

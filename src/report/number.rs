@@ -2,7 +2,7 @@
 
 use unicode_width::UnicodeWidthStr;
 
-use crate::analysis::table::{Cell, Style};
+use crate::analysis::table::{Cell, Style, Table};
 use crate::analysis::tails::Probability;
 
 /// What stands for a missing value.
@@ -22,6 +22,19 @@ pub fn shown(cell: &Cell, style: Style) -> String {
         ),
         Cell::Undefined(_) => MISSING.to_owned(),
     }
+}
+
+/// Why values are missing, each reason once.
+pub fn reasons(table: &Table) -> Vec<&'static str> {
+    let mut reasons: Vec<&'static str> = Vec::new();
+    for cell in table.rows.iter().flatten() {
+        if let Cell::Undefined(why) = cell
+            && !reasons.contains(&why.reason)
+        {
+            reasons.push(why.reason);
+        }
+    }
+    reasons
 }
 
 /// Six decimals, a whole number without any; under 1e-6 two digits and the power of ten, also where a
@@ -53,7 +66,7 @@ fn fixed(number: f64, style: Style) -> String {
     let text = match style {
         Style::UpTo(digits) => trimmed(format!("{number:.digits$}")),
         Style::Decimals(digits) | Style::Interval(digits) => format!("{number:.digits$}"),
-        Style::P | Style::Count | Style::Text => number.to_string(),
+        Style::P | Style::Count | Style::Text | Style::Code => number.to_string(),
     };
     // −0.000 is 0.000.
     match text.strip_prefix('-') {

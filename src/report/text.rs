@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::VERSION;
-use super::number::{align_decimals, shown, width};
+use super::document::{Block, document};
+use super::number::{align_decimals, reasons, shown, width};
 use crate::analysis::Analysis;
-use crate::analysis::table::{Cell, Group, Status, Style, Table};
+use crate::analysis::table::{Style, Table};
 
 /// Sentences are wrapped here; tables are as wide as they need.
 const LINE: usize = 96;
@@ -13,76 +13,36 @@ const LINE: usize = 96;
 /// The whole report.
 pub fn render(analysis: &Analysis) -> String {
     let mut out = String::new();
-    heading(&mut out, "Result");
-    for sentence in &analysis.conclusion {
-        paragraph(&mut out, sentence);
-    }
-    let confidence = analysis.settings.alpha.confidence_percent();
-    let has_answers = analysis.data.has_answers();
-    for (title, groups) in [
-        (
-            format!("Choices (share of technique b, {confidence} % intervals)"),
-            &[Group::Key, Group::Choices][..],
-        ),
-        (
-            format!(
-                "Tests against an even split (alpha = {}, verdict from exact p after Holm)",
-                analysis.settings.alpha.get()
-            ),
-            &[Group::Key, Group::Tests],
-        ),
-        (
-            "Effect size (g > 0: towards technique b)".to_owned(),
-            &[Group::Key, Group::Effects],
-        ),
-        (
-            "Evidence (Bayes factor against an even split; anytime-valid test)".to_owned(),
-            &[Group::Key, Group::Evidence],
-        ),
-        (
-            "Order shown and position chosen".to_owned(),
-            &[Group::Key, Group::Position],
-        ),
-    ] {
-        let part = analysis.conditions.only(groups);
-        let says_nothing = part.rows.is_empty() || part.columns.len() < 2;
-        if says_nothing || (groups.contains(&Group::Position) && !has_answers) {
-            continue;
-        }
-        heading(&mut out, &title);
-        table(&mut out, &part);
-    }
-    exclusions(&mut out, analysis);
-    for section in &analysis.sections {
-        heading(&mut out, section.title);
-        if section.status != Status::Ok {
-            let _ = writeln!(out, "Status: {}", section.status.text());
-        }
-        for finding in &section.findings {
-            paragraph(&mut out, finding);
-        }
-        for part in section.tables.iter().filter(|part| !part.long) {
-            paragraph(&mut out, &format!("{}:", part.caption));
-            table(&mut out, &part.table);
+    for part in document(analysis).parts {
+        heading(
+            &mut out,
+            match part.title.as_str() {
+                "" => "Result",
+                title => title,
+            },
+        );
+        for block in part.blocks {
+            write_block(&mut out, block);
         }
     }
-    inputs(&mut out, analysis);
     out
 }
 
-/// What rules laid down before have left out.
-fn exclusions(out: &mut String, analysis: &Analysis) {
-    if analysis.data.exclusions.is_empty() {
-        return;
-    }
-    heading(out, "Left out by rule");
-    for one in &analysis.data.exclusions {
-        let who = match one.participants.len() {
-            0 => "nobody".to_owned(),
-            1..=12 => one.participants.join(", "),
-            many => format!("{many} participants"),
-        };
-        paragraph(out, &format!("{}: {who}, {} trials", one.rule, one.trials));
+fn write_block(out: &mut String, block: Block) {
+    match block {
+        Block::Paragraph(text) => paragraph(out, &text),
+        Block::Note(text) => paragraph(out, &format!("Note: {text}")),
+        Block::Quote(paragraphs) => paragraphs.iter().for_each(|text| paragraph(out, text)),
+        // Formulas stand in the page and in the JSON report.
+        Block::Figure(_) | Block::Terms(_) => {}
+        Block::Table(block) if block.folded => {
+            let rows = block.table.rows.len();
+            paragraph(out, &format!("{}: {rows} rows, in the page.", block.caption));
+        }
+        Block::Table(block) => {
+            paragraph(out, &format!("{}:", block.caption));
+            table(out, &block.table);
+        }
     }
 }
 
@@ -140,7 +100,7 @@ fn table(out: &mut String, table: &Table) {
                 line.push_str("  ");
             }
             let padding = " ".repeat(wide - width(&cells[row]));
-            if column.style == Style::Text {
+            if matches!(column.style, Style::Text | Style::Code) {
                 let _ = write!(line, "{}{padding}", cells[row]);
             } else {
                 let _ = write!(line, "{padding}{}", cells[row]);
@@ -151,46 +111,4 @@ fn table(out: &mut String, table: &Table) {
     for reason in reasons(table) {
         let _ = writeln!(out, "– {reason}");
     }
-}
-
-/// Why values are missing, each reason once.
-pub fn reasons(table: &Table) -> Vec<&'static str> {
-    let mut reasons: Vec<&'static str> = Vec::new();
-    for cell in table.rows.iter().flatten() {
-        if let Cell::Undefined(why) = cell
-            && !reasons.contains(&why.reason)
-        {
-            reasons.push(why.reason);
-        }
-    }
-    reasons
-}
-
-fn inputs(out: &mut String, analysis: &Analysis) {
-    /// A folder of a thousand sessions is summed up; JSON and HTML list every file.
-    const MOST: usize = 8;
-    heading(out, "Input");
-    let sources = &analysis.data.sources;
-    for source in sources.iter().take(MOST) {
-        let _ = writeln!(
-            out,
-            "{}: {}, {} rows, sha256 {}…",
-            source.path,
-            source.kind,
-            source.rows_used,
-            &source.sha256[..source.sha256.len().min(16)]
-        );
-    }
-    if sources.len() > MOST {
-        let _ = writeln!(
-            out,
-            "… and {} files more, {} rows in all",
-            sources.len() - MOST,
-            sources.iter().map(|source| source.rows_used).sum::<u64>()
-        );
-    }
-    for note in &analysis.data.notes {
-        paragraph(out, &format!("Note: {note}"));
-    }
-    let _ = writeln!(out, "Greyfield {VERSION}");
 }

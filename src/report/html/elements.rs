@@ -2,43 +2,15 @@
 
 use std::fmt::Write as _;
 
-use crate::analysis::statistic::SectionTable;
-use crate::analysis::table::{Style, Table};
-use crate::report::number::{align_decimals, shown};
+use crate::analysis::table::{Column, Style};
+use crate::report::document::TableBlock;
+use crate::report::number::{align_decimals, reasons, shown};
 use crate::report::study_figures::Drawing;
 use crate::report::svg::escape;
-use crate::report::text::reasons;
 
 /// Spaces as wide as a digit and as a point, to align decimals in a proportional font.
 const FIGURE_SPACE: char = '\u{2007}';
 const PUNCTUATION_SPACE: char = '\u{2008}';
-
-/// A table with a row a participant is folded away, and left to the JSON report if it is huge.
-pub fn section_table(page: &mut String, part: &SectionTable) {
-    const MOST_ROWS: usize = 500;
-    if part.table.rows.len() > MOST_ROWS {
-        paragraph(
-            page,
-            &format!(
-                "{}: {} rows, in the JSON report.",
-                part.caption,
-                part.table.rows.len()
-            ),
-        );
-        return;
-    }
-    if part.long {
-        let _ = writeln!(
-            page,
-            "<details>\n<summary>{}</summary>",
-            escape(part.caption)
-        );
-    }
-    table(page, &part.table, part.caption, None);
-    if part.long {
-        page.push_str("</details>\n");
-    }
-}
 
 /// A paragraph.
 pub fn paragraph(page: &mut String, text: &str) {
@@ -55,53 +27,39 @@ pub fn figure(page: &mut String, drawing: Drawing) {
     );
 }
 
-/// A table; rows that are `strong` stand out.
-pub fn table(page: &mut String, table: &Table, caption: &str, strong: Option<&[bool]>) {
+/// A table that scrolls where it is too wide; the first cell of each row names it.
+pub fn table(page: &mut String, block: &TableBlock) {
+    let class = if block.wraps {
+        "scroll wraps"
+    } else {
+        "scroll"
+    };
     let _ = write!(
         page,
-        "<div class=\"scroll\"><table>\n<caption>{}</caption>\n<thead><tr>",
-        escape(caption)
+        "<div class=\"{class}\"><table>\n<caption>{}</caption>\n<thead><tr>",
+        escape(&block.caption)
     );
-    let class = |style: Style| {
-        if style == Style::Text {
-            ""
-        } else {
-            " class=\"n\""
-        }
-    };
-    let mut columns = Vec::new();
-    for (i, column) in table.columns.iter().enumerate() {
-        let _ = write!(
-            page,
-            "<th{}>{}</th>",
-            class(column.style),
-            escape(&column.title)
-        );
-        let mut cells: Vec<String> = table
-            .rows
-            .iter()
-            .map(|row| shown(&row[i], column.style))
-            .collect();
-        if matches!(column.style, Style::P | Style::UpTo(_)) {
-            align_decimals(&mut cells, FIGURE_SPACE, PUNCTUATION_SPACE);
-        }
-        columns.push(cells);
+    let table = &block.table;
+    for column in &table.columns {
+        let class = class_of(column);
+        let _ = write!(page, "<th{class}>{}</th>", escape(&column.title));
     }
     page.push_str("</tr></thead>\n<tbody>\n");
+    let columns: Vec<Vec<String>> = (0..table.columns.len())
+        .map(|i| cells_of(block, i))
+        .collect();
     for row in 0..table.rows.len() {
-        let is_strong = strong.is_some_and(|strong| strong[row]);
-        page.push_str(if is_strong {
-            "<tr class=\"strong\">"
-        } else {
-            "<tr>"
+        page.push_str(match block.is_strong(row) {
+            true => "<tr class=\"strong\">",
+            false => "<tr>",
         });
         for (i, (cells, column)) in columns.iter().zip(&table.columns).enumerate() {
             let cell = escape(&cells[row]);
-            if i == 0 {
-                let _ = write!(page, "<th scope=\"row\">{cell}</th>");
-            } else {
-                let _ = write!(page, "<td{}>{cell}</td>", class(column.style));
-            }
+            let _ = match (i, column.style) {
+                (0, _) => write!(page, "<th scope=\"row\">{cell}</th>"),
+                (_, Style::Code) => write!(page, "<td><code>{cell}</code></td>"),
+                _ => write!(page, "<td{}>{cell}</td>", class_of(column)),
+            };
         }
         page.push_str("</tr>\n");
     }
@@ -109,6 +67,24 @@ pub fn table(page: &mut String, table: &Table, caption: &str, strong: Option<&[b
     for reason in reasons(table) {
         let _ = writeln!(page, "<p class=\"reason\">– {}</p>", escape(reason));
     }
+}
+
+fn class_of(column: &Column) -> &'static str {
+    match column.style {
+        Style::Text | Style::Code => "",
+        _ => " class=\"n\"",
+    }
+}
+
+/// The cells of one column as they are shown.
+fn cells_of(block: &TableBlock, i: usize) -> Vec<String> {
+    let style = block.table.columns[i].style;
+    let rows = block.table.rows.iter();
+    let mut cells: Vec<String> = rows.map(|row| shown(&row[i], style)).collect();
+    if matches!(style, Style::P | Style::UpTo(_)) {
+        align_decimals(&mut cells, FIGURE_SPACE, PUNCTUATION_SPACE);
+    }
+    cells
 }
 
 /// With a capital first letter.
