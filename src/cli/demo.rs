@@ -74,15 +74,15 @@ pub fn run(args: &Demo, verbosity: Verbosity) -> Result<(), Failure> {
         session::window(&protocol, Some(&stimuli), &results, "demo", true)?;
     }
     let report = out.join(if scripted {
-        "report-scripted.html"
+        "report-scripted"
     } else {
-        "report.html"
+        "report"
     });
     let analysed = analyse_results(&results, &report)?;
     println!("\nimages  {}", stimuli.display());
     println!("data    {}", results.display());
     if analysed {
-        println!("report  {}", report.display());
+        println!("report  {}", report.join("report.html").display());
     }
     if scripted {
         println!(
@@ -158,8 +158,8 @@ fn observe(
     Ok(())
 }
 
-/// Prints the tables and writes the page; false if there is nothing to analyse yet.
-fn analyse_results(results: &Path, page: &Path) -> Result<bool, Failure> {
+/// Prints the tables and writes the report; false if there is nothing to analyse yet.
+fn analyse_results(results: &Path, folder: &Path) -> Result<bool, Failure> {
     let options = Options {
         include_pilot: true,
         ..Default::default()
@@ -171,9 +171,11 @@ fn analyse_results(results: &Path, page: &Path) -> Result<bool, Failure> {
             return Ok(false);
         }
     };
-    let analysis = analyse(data, Settings::default());
+    let settings = Settings::declared(&data);
+    let analysis = analyse(data, settings);
     println!("\n{}", report::render(&analysis, Format::Text)?);
-    let html = report::render(&analysis, Format::Html)?;
-    files::write_whole(page, html.as_bytes()).context("writing the report")?;
+    let report = report::files(&analysis)?.into_iter();
+    files::write_all(folder, report.map(|file| (file.path, file.bytes)))
+        .context("writing the report")?;
     Ok(true)
 }

@@ -68,7 +68,7 @@ enum Command {
     Order(order::Order),
     Participants(participants::Participants),
     Export(export::Export),
-    Analyse(analyse::AnalyseArgs),
+    Analyse(Box<analyse::AnalyseArgs>),
 }
 
 /// A failure with the exit code it ends in.
@@ -154,6 +154,6 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Order(args) => order::run(&args),
         Command::Participants(args) => participants::run(&args),
         Command::Export(args) => export::run(&args, verbosity),
-        Command::Analyse(args) => analyse::run(&args),
+        Command::Analyse(args) => analyse::run(&args, verbosity),
     }
 }

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::Context;
 
+use crate::analysis::statistic::Watch;
 use crate::stimulus::files;
 
 /// Writes a result to a file, whole or not at all, or to standard output where none is named.
@@ -54,6 +55,21 @@ impl<'a> TracedShare<'a> {
             true => format!("traced {} % ", 100 * done / self.image_px),
             false => String::new(),
         });
+    }
+}
+
+/// Shows long work of an analysis on a bar.
+pub struct WatchedByBar<'a>(pub &'a indicatif::ProgressBar);
+
+impl Watch for WatchedByBar<'_> {
+    fn begin(&self, what: &'static str, steps: u64) {
+        self.0.reset();
+        self.0.set_length(steps);
+        self.0.set_message(what);
+    }
+
+    fn step(&self) {
+        self.0.inc(1);
     }
 }
 

@@ -32,7 +32,12 @@ fn write_block(out: &mut String, block: Block) {
     match block {
         Block::Paragraph(text) => paragraph(out, &text),
         Block::Note(text) => paragraph(out, &format!("Note: {text}")),
-        Block::Quote(paragraphs) => paragraphs.iter().for_each(|text| paragraph(out, text)),
+        Block::Quote(paragraphs) => {
+            for text in paragraphs {
+                out.push('\n');
+                paragraph(out, &text);
+            }
+        }
         // Formulas stand in the page and in the JSON report.
         Block::Figure(_) | Block::Terms(_) => {}
         Block::Table(block) if block.folded => {
@@ -40,6 +45,7 @@ fn write_block(out: &mut String, block: Block) {
             paragraph(out, &format!("{}: {rows} rows, in the page.", block.caption));
         }
         Block::Table(block) => {
+            out.push('\n');
             paragraph(out, &format!("{}:", block.caption));
             table(out, &block.table);
         }

@@ -76,6 +76,30 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), StimulusError> {
     })
 }
 
+/// Writes several files into a folder, each whole or not at all, and makes the folders they need.
+/// Paths are relative, with `/` between the parts. How many were written.
+///
+/// # Errors
+/// [`StimulusError::Unwritable`] at the first that cannot be; those before it stand.
+pub fn write_all(
+    folder: &Path,
+    files: impl IntoIterator<Item = (String, Vec<u8>)>,
+) -> Result<usize, StimulusError> {
+    let mut written = 0;
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        if let Some(parent) = path.parent() {
+            std::fs::create_dir_all(parent).map_err(|source| StimulusError::Unwritable {
+                path: parent.to_owned(),
+                source,
+            })?;
+        }
+        write_whole(&path, &bytes)?;
+        written += 1;
+    }
+    Ok(written)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -8,6 +8,7 @@
 
 mod actions;
 mod people;
+mod results;
 mod snapshot;
 
 use std::path::{Path, PathBuf};
@@ -15,6 +16,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui::{Rect, RichText, ScrollArea, TextStyle, Ui, UiBuilder, vec2};
 
+pub use results::Results;
 pub use snapshot::{Person, Snapshot};
 
 use self::actions::Actions;
@@ -31,9 +33,20 @@ const REFRESH: Duration = Duration::from_secs(1);
 /// Findings shown; the rest is a number.
 const FINDINGS: usize = 8;
 
+/// What of the study is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Tab {
+    /// Who took part, and what is decided about them.
+    Participants,
+    /// What they chose.
+    Results,
+}
+
 /// The page.
 pub struct StudyPage {
     results: PathBuf,
+    tab: Tab,
+    report: Results,
     /// Reads again by itself.
     follows: bool,
     reading: Option<Task<Snapshot>>,
@@ -51,6 +64,8 @@ impl StudyPage {
     pub fn new(results: &Path, follows: bool) -> Self {
         Self {
             results: results.to_owned(),
+            tab: Tab::Participants,
+            report: Results::new(results, follows),
             follows,
             reading: None,
             shown: None,
@@ -79,6 +94,12 @@ impl StudyPage {
     #[must_use]
     pub fn shown(&self) -> Option<&Result<Snapshot, String>> {
         self.shown.as_ref()
+    }
+
+    /// The report of the results.
+    #[must_use]
+    pub fn report(&self) -> &Results {
+        &self.report
     }
 
     /// One pass of the interface.
@@ -129,9 +150,22 @@ impl StudyPage {
             if self.can_leave && ui.button("Back").clicked() {
                 self.is_left = true;
             }
+            for (tab, name) in [
+                (Tab::Participants, "Participants"),
+                (Tab::Results, "Results"),
+            ] {
+                ui.selectable_value(&mut self.tab, tab, name);
+            }
         });
         ui.label(theme::quiet(self.results.display().to_string()));
         ui.add_space(8.0);
+        match self.tab {
+            Tab::Participants => self.participants(ui),
+            Tab::Results => self.report.ui(ui),
+        }
+    }
+
+    fn participants(&mut self, ui: &mut Ui) {
         let changed = match &self.shown {
             None => {
                 ui.label("Reading …");
