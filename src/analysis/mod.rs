@@ -15,6 +15,7 @@ pub mod statistic;
 pub mod table;
 pub mod tails;
 
+pub mod bayes_factor;
 pub mod benjamini_hochberg;
 pub mod chi_square;
 pub mod clopper_pearson;
@@ -23,6 +24,7 @@ pub mod exact_binomial;
 pub mod holm;
 pub mod mcnemar;
 pub mod position_bias;
+pub mod sequential;
 pub mod wilson;
 
 pub use dataset::Dataset;

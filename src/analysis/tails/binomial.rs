@@ -24,7 +24,8 @@ impl Binomial {
     }
 
     /// With p = 1 / (1 + e^−logit), precise at both ends.
-    pub(super) fn from_logit(n: u32, logit: f64) -> Self {
+    #[must_use]
+    pub fn from_logit(n: u32, logit: f64) -> Self {
         Self {
             n,
             p: 1.0 / (1.0 + (-logit).exp()),

@@ -33,6 +33,7 @@ pub use clopper_pearson::clopper_pearson;
 pub use f::{f_quantile, f_upper};
 pub use gamma::{gamma_lower, gamma_upper};
 pub use normal::{normal_critical, normal_quantile, normal_upper};
+pub(super) use saddle_point::{deviance, stirling_error};
 pub use saddle_point::{ln_beta, ln_gamma};
 pub use student_t::{student_t_critical, student_t_quantile, student_t_upper};
 
