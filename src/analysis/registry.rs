@@ -2,8 +2,8 @@
 
 use super::statistic::{About, AnswerStatistic, ConditionStatistic, Correction, StudyStatistic};
 use super::{
-    bayes_factor, benjamini_hochberg, chi_square, clopper_pearson, effect_size,
-    exact_binomial, holm, mcnemar, position_bias, sequential, wilson,
+    bayes_factor, benjamini_hochberg, chi_square, clopper_pearson, cochran_q, effect_size,
+    exact_binomial, holm, mcnemar, order_effect, position_bias, sequential, wilson,
 };
 
 /// Statistics of one condition.
@@ -26,7 +26,9 @@ pub const CORRECTIONS: &[Correction] = &[holm::CORRECTION, benjamini_hochberg::C
 /// Statistics of the whole study.
 pub const STUDY_STATISTICS: &[StudyStatistic] = &[
     position_bias::POOLED,
+    order_effect::STATISTIC,
     mcnemar::STATISTIC,
+    cochran_q::STATISTIC,
     bayes_factor::SENSITIVITY,
     sequential::STATISTIC,
 ];
