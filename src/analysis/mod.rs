@@ -26,6 +26,7 @@ pub mod holm;
 pub mod mcnemar;
 pub mod order_effect;
 pub mod position_bias;
+pub mod response_times;
 pub mod sequential;
 pub mod wilson;
 

@@ -3,7 +3,7 @@
 use super::statistic::{About, AnswerStatistic, ConditionStatistic, Correction, StudyStatistic};
 use super::{
     bayes_factor, benjamini_hochberg, chi_square, clopper_pearson, cochran_q, effect_size,
-    exact_binomial, holm, mcnemar, order_effect, position_bias, sequential, wilson,
+    exact_binomial, holm, mcnemar, order_effect, position_bias, response_times, sequential, wilson,
 };
 
 /// Statistics of one condition.
@@ -31,6 +31,7 @@ pub const STUDY_STATISTICS: &[StudyStatistic] = &[
     cochran_q::STATISTIC,
     bayes_factor::SENSITIVITY,
     sequential::STATISTIC,
+    response_times::STATISTIC,
 ];
 
 /// What each of them is, without repetition.
