@@ -15,6 +15,7 @@ pub mod statistic;
 pub mod table;
 pub mod tails;
 
+pub mod audit;
 pub mod bayes_factor;
 pub mod benjamini_hochberg;
 pub mod chi_square;

@@ -2,7 +2,7 @@
 
 use super::statistic::{About, AnswerStatistic, ConditionStatistic, Correction, StudyStatistic};
 use super::{
-    bayes_factor, benjamini_hochberg, chi_square, clopper_pearson, cochran_q, effect_size,
+    audit, bayes_factor, benjamini_hochberg, chi_square, clopper_pearson, cochran_q, effect_size,
     exact_binomial, holm, mcnemar, order_effect, position_bias, response_times, sequential, wilson,
 };
 
@@ -32,6 +32,7 @@ pub const STUDY_STATISTICS: &[StudyStatistic] = &[
     bayes_factor::SENSITIVITY,
     sequential::STATISTIC,
     response_times::STATISTIC,
+    audit::STATISTIC,
 ];
 
 /// What each of them is, without repetition.
