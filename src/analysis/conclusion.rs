@@ -118,7 +118,7 @@ fn some_of(ids: &[&str]) -> Option<String> {
 }
 
 /// Names, at most eight of them.
-fn listed(ids: &[&str]) -> String {
+pub(super) fn listed(ids: &[&str]) -> String {
     const MOST: usize = 8;
     if ids.len() <= MOST {
         ids.join(", ")

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 use super::dataset::{ConditionData, Dataset};
 use super::exact_binomial;
-use super::registry::{CONDITION_STATISTICS, CORRECTIONS};
+use super::registry::{ANSWER_STATISTICS, CONDITION_STATISTICS, CORRECTIONS};
 use super::settings::Settings;
 use super::statistic::{ConditionTest, Correction};
 use super::table::{Cell, Column, Group, Style, Table, Undefined};
@@ -127,6 +127,12 @@ pub fn table(data: &Dataset, settings: &Settings) -> Table {
         columns.extend(statistic.columns.iter().cloned());
         for (row, condition) in rows.iter_mut().zip(&data.conditions) {
             row.extend((statistic.cells)(condition, settings));
+        }
+    }
+    for statistic in ANSWER_STATISTICS {
+        columns.extend(statistic.columns.iter().cloned());
+        for (row, cells) in rows.iter_mut().zip((statistic.cells)(data, settings)) {
+            row.extend(cells);
         }
     }
     for correction in CORRECTIONS {

@@ -146,7 +146,7 @@ fn turned(data: &Dataset, left: usize, right: usize) -> bool {
 }
 
 /// For every condition (participant, chose technique b), sorted by participant.
-fn choices_by_condition(data: &Dataset) -> Vec<Vec<(u32, bool)>> {
+pub(super) fn choices_by_condition(data: &Dataset) -> Vec<Vec<(u32, bool)>> {
     let mut choices = vec![Vec::new(); data.conditions.len()];
     for answer in &data.answers {
         if let Some(chose_b) = answer.chose_b() {

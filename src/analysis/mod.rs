@@ -15,14 +15,20 @@ pub mod statistic;
 pub mod table;
 pub mod tails;
 
+pub mod audit;
+pub mod bayes_factor;
 pub mod benjamini_hochberg;
 pub mod chi_square;
 pub mod clopper_pearson;
+pub mod cochran_q;
 pub mod effect_size;
 pub mod exact_binomial;
 pub mod holm;
 pub mod mcnemar;
+pub mod order_effect;
 pub mod position_bias;
+pub mod response_times;
+pub mod sequential;
 pub mod wilson;
 
 pub use dataset::Dataset;

@@ -1,9 +1,9 @@
 //! Every statistic, one line each. Tables, files, the methods text and the docs follow this order.
 
-use super::statistic::{About, ConditionStatistic, Correction, StudyStatistic};
+use super::statistic::{About, AnswerStatistic, ConditionStatistic, Correction, StudyStatistic};
 use super::{
-    benjamini_hochberg, chi_square, clopper_pearson, effect_size, exact_binomial, holm, mcnemar,
-    position_bias, wilson,
+    audit, bayes_factor, benjamini_hochberg, chi_square, clopper_pearson, cochran_q, effect_size,
+    exact_binomial, holm, mcnemar, order_effect, position_bias, response_times, sequential, wilson,
 };
 
 /// Statistics of one condition.
@@ -13,14 +13,27 @@ pub const CONDITION_STATISTICS: &[ConditionStatistic] = &[
     chi_square::STATISTIC,
     exact_binomial::STATISTIC,
     effect_size::STATISTIC,
+    bayes_factor::BY_CONDITION,
     position_bias::BY_CONDITION,
 ];
+
+/// Columns of the conditions that need the single answers.
+pub const ANSWER_STATISTICS: &[AnswerStatistic] = &[sequential::BY_CONDITION];
 
 /// Corrections for the family of all conditions, the main one first.
 pub const CORRECTIONS: &[Correction] = &[holm::CORRECTION, benjamini_hochberg::CORRECTION];
 
 /// Statistics of the whole study.
-pub const STUDY_STATISTICS: &[StudyStatistic] = &[position_bias::POOLED, mcnemar::STATISTIC];
+pub const STUDY_STATISTICS: &[StudyStatistic] = &[
+    position_bias::POOLED,
+    order_effect::STATISTIC,
+    mcnemar::STATISTIC,
+    cochran_q::STATISTIC,
+    bayes_factor::SENSITIVITY,
+    sequential::STATISTIC,
+    response_times::STATISTIC,
+    audit::STATISTIC,
+];
 
 /// What each of them is, without repetition.
 #[must_use]
@@ -29,6 +42,7 @@ pub fn abouts() -> Vec<About> {
     let every = CONDITION_STATISTICS
         .iter()
         .map(|statistic| statistic.about)
+        .chain(ANSWER_STATISTICS.iter().map(|statistic| statistic.about))
         .chain(CORRECTIONS.iter().map(|correction| correction.about))
         .chain(STUDY_STATISTICS.iter().map(|statistic| statistic.about));
     for about in every {

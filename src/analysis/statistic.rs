@@ -33,6 +33,17 @@ pub struct ConditionStatistic {
     pub test: Option<ConditionTest>,
 }
 
+/// Columns of the table of conditions that need the single answers, and are filled for all
+/// conditions in one pass over them.
+pub struct AnswerStatistic {
+    /// What it is.
+    pub about: About,
+    /// The columns it fills.
+    pub columns: &'static [Column],
+    /// For every condition one cell a column.
+    pub cells: fn(&Dataset, &Settings) -> Vec<Vec<Cell>>,
+}
+
 /// A test that the family correction applies to.
 #[derive(Clone, Copy)]
 pub struct ConditionTest {

@@ -24,7 +24,8 @@ impl Binomial {
     }
 
     /// With p = 1 / (1 + e^−logit), precise at both ends.
-    pub(super) fn from_logit(n: u32, logit: f64) -> Self {
+    #[must_use]
+    pub fn from_logit(n: u32, logit: f64) -> Self {
         Self {
             n,
             p: 1.0 / (1.0 + (-logit).exp()),
@@ -71,7 +72,8 @@ impl Binomial {
         } else {
             trials.mul_add(q, -failures)
         };
-        let correction = stirling_error(n) - stirling_error(k) - stirling_error(n - k);
+        let correction =
+            stirling_error(trials) - stirling_error(successes) - stirling_error(failures);
         correction
             - deviance(successes, trials * p, difference)
             - deviance(failures, trials * q, -difference)

@@ -1,0 +1,400 @@
+//! A test that may be looked at after every answer: how much a gambler would hold who bets on the
+//! votes of a condition, against the house's claim that they are even.
+
+use super::conclusion::{listed, plural};
+use super::dataset::{Dataset, Votes};
+use super::holm;
+use super::settings::Settings;
+use super::statistic::{About, AnswerStatistic, Context, Section, SectionTable, StudyStatistic};
+use super::table::{Cell, Column, Group, Interval, Status, Style, Table, Undefined};
+use super::tails::{Alpha, Binomial, Probability};
+
+const ABOUT: About = About {
+    id: "sequential",
+    name: "anytime-valid test against an even split",
+    formula: "e_k = 2ᵏ B(b + 1, a + 1) after k votes, p = min(1, 1/max e_k); interval: all shares q with B(b + 1, a + 1)/(qᵇ (1 − q)ᵃ) < 1/alpha",
+    source: "H. Robbins (1970), Annals of Mathematical Statistics 41(5), 1397–1409; S. R. Howard, A. Ramdas, J. McAuliffe, J. Sekhon (2021), Annals of Statistics 49(2), 1055–1080",
+    validity: "under an even split the chance that p is ever at most alpha is at most alpha, at whatever answer the study stops and for whatever reason; needs independent votes in the order in which they were given; less powerful than a test at a fixed number of votes",
+};
+
+/// By condition.
+pub const BY_CONDITION: AnswerStatistic = AnswerStatistic {
+    about: ABOUT,
+    columns: &[
+        Column::new(
+            "e_value_log10",
+            "log₁₀ e",
+            Style::Decimals(3),
+            Group::Evidence,
+        ),
+        Column::new("p_anytime", "p anytime", Style::P, Group::Evidence),
+        Column::new("anytime_ci", "anytime", Style::Interval(3), Group::Evidence),
+    ],
+    cells: |data, settings| {
+        (runs(data, settings).iter())
+            .map(|run| run.cells(settings).to_vec())
+            .collect()
+    },
+};
+
+/// The study's section.
+pub const STATISTIC: StudyStatistic = StudyStatistic {
+    about: ABOUT,
+    section,
+};
+
+const NEEDS_ORDER: Undefined =
+    Undefined::not_available("needs the order of single answers, the input has only counts");
+const NOT_REACHED: Undefined = Undefined::degenerate("alpha was not reached at any answer");
+const OUTSIDE: Undefined = Undefined::not_available("not of the declared family");
+
+/// The test of one condition, fed vote by vote.
+///
+/// The wealth e of a gambler who starts with 1 and bets on every vote by the uniform prior's
+/// prediction, (b + 1)/(n + 2) for b. It is a martingale under an even split, so that by Ville's
+/// inequality it ever reaches 1/alpha with probability at most alpha. It equals the Bayes factor
+/// with a uniform prior.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Monitor {
+    votes: Votes,
+    ln_e: f64,
+    /// The largest so far, e = 1 before the first vote included, and the votes it was reached at.
+    ln_largest: f64,
+    at_largest: Votes,
+}
+
+impl Monitor {
+    /// One vote more.
+    pub fn vote(&mut self, for_b: bool) {
+        let Votes { a, b } = self.votes;
+        let (side, votes) = if for_b {
+            (
+                b,
+                Votes {
+                    a,
+                    b: b.saturating_add(1),
+                },
+            )
+        } else {
+            (
+                a,
+                Votes {
+                    a: a.saturating_add(1),
+                    b,
+                },
+            )
+        };
+        let n = f64::from(a) + f64::from(b);
+        self.ln_e += (2.0 * (f64::from(side) + 1.0) / (n + 2.0)).ln();
+        self.votes = votes;
+        if self.ln_e > self.ln_largest {
+            self.ln_largest = self.ln_e;
+            self.at_largest = votes;
+        }
+    }
+
+    /// The votes so far.
+    #[must_use]
+    pub fn votes(&self) -> Votes {
+        self.votes
+    }
+
+    /// Number of votes at which e was largest.
+    #[must_use]
+    pub fn largest_at(&self) -> u32 {
+        self.at_largest.total()
+    }
+
+    /// ln e now. From the votes, not the sum of the steps: a million of them round.
+    #[must_use]
+    pub fn ln_e_value(&self) -> f64 {
+        ln_e_value(self.votes)
+    }
+
+    /// ln of the largest e so far, at least 0.
+    #[must_use]
+    pub fn ln_largest_e_value(&self) -> f64 {
+        ln_e_value(self.at_largest).max(0.0)
+    }
+
+    /// The anytime-valid p: may be read after every vote, and never rises.
+    #[must_use]
+    pub fn p(&self) -> Probability {
+        Probability::from_ln(-self.ln_largest_e_value())
+    }
+
+    /// The confidence sequence at this vote.
+    #[must_use]
+    pub fn interval(&self, alpha: Alpha) -> Interval {
+        confidence_sequence(self.votes, alpha)
+    }
+}
+
+/// ln e of a condition's votes against an even split, whatever their order.
+#[must_use]
+pub fn ln_e_value(votes: Votes) -> f64 {
+    super::bayes_factor::ln_bayes_factor(votes, 1.0)
+}
+
+/// The shares of b that a gambler with these votes has not won 1/alpha against: holds the true
+/// share at every number of votes at once, with probability at least 1 − alpha.
+#[must_use]
+pub fn confidence_sequence(votes: Votes, alpha: Alpha) -> Interval {
+    let Votes { a, b } = votes;
+    Interval {
+        low: lower_end(b, a, alpha).0,
+        high: lower_end(a, b, alpha).1,
+    }
+}
+
+/// The lower end of the share of `k` against `others`, and 1 minus it, each to full precision.
+///
+/// With C(n, k) B(k + 1, n − k + 1) = 1/(n + 1), e(p) < 1/alpha is P(X = k) > alpha/(n + 1) for
+/// X ~ Bin(n, p). Its logarithm is concave in the logit of p, so that Newton, bracketed, comes up to
+/// the root from below.
+fn lower_end(k: u32, others: u32, alpha: Alpha) -> (f64, f64) {
+    if k == 0 {
+        return (0.0, 1.0);
+    }
+    let n = k.saturating_add(others);
+    let target = alpha.get().ln() - (f64::from(n) + 1.0).ln();
+    if others == 0 {
+        let ln_p = target / f64::from(n);
+        return (ln_p.exp(), -ln_p.exp_m1());
+    }
+    let share = f64::from(k) / f64::from(n);
+    let most = (f64::from(k) / f64::from(others)).ln();
+    let (mut low, mut high) = (-800.0_f64, most);
+    let mut logit = most
+        - (2.0 * -target / (f64::from(n) * share * (1.0 - share)))
+            .sqrt()
+            .min(700.0);
+    for _ in 0..200 {
+        let x = Binomial::from_logit(n, logit);
+        let excess = x.ln_pmf(k) - target;
+        if excess < 0.0 {
+            low = logit;
+        } else {
+            high = logit;
+        }
+        // d ln P(X = k) / d logit = k − n p.
+        let newton = logit - excess / (f64::from(k) - f64::from(n) * x.p());
+        // NaN (no slope) is outside too.
+        let next = if newton > low && newton < high {
+            newton
+        } else {
+            f64::midpoint(low, high)
+        };
+        let step = (next - logit).abs();
+        logit = next;
+        if step <= 1e-15 * logit.abs().max(1.0) {
+            break;
+        }
+    }
+    let x = Binomial::from_logit(n, logit);
+    (x.p(), x.q())
+}
+
+/// One condition's votes, looked at after each of them.
+#[derive(Clone, Copy, Default)]
+struct Run {
+    monitor: Monitor,
+    /// The number of votes at which p was at most alpha for the first time.
+    reached: Option<u32>,
+    /// Whether the order of the votes is known.
+    ordered: bool,
+}
+
+impl Run {
+    fn p(&self) -> Result<Probability, Undefined> {
+        match (self.monitor.votes.total(), self.ordered) {
+            (0, _) => Err(Undefined::NO_VOTES),
+            (_, false) => Err(NEEDS_ORDER),
+            (_, true) => Ok(self.monitor.p()),
+        }
+    }
+
+    /// e, p, interval.
+    fn cells(&self, settings: &Settings) -> [Cell; 3] {
+        if self.monitor.votes.total() == 0 {
+            return [(); 3].map(|()| Cell::Undefined(Undefined::NO_VOTES));
+        }
+        [
+            Cell::Number(self.monitor.ln_e_value() * std::f64::consts::LOG10_E),
+            Cell::or_undefined(self.p(), Cell::Probability),
+            Cell::Interval(self.monitor.interval(settings.alpha)),
+        ]
+    }
+}
+
+/// Every condition's run: participants in order of appearance. Of counts only the end is known.
+fn runs(data: &Dataset, settings: &Settings) -> Vec<Run> {
+    if !data.has_answers() {
+        return (data.conditions.iter())
+            .map(|condition| Run {
+                monitor: Monitor {
+                    votes: condition.votes,
+                    ..Monitor::default()
+                },
+                ..Run::default()
+            })
+            .collect();
+    }
+    let ordered = Run {
+        ordered: true,
+        ..Run::default()
+    };
+    let mut runs = vec![ordered; data.conditions.len()];
+    let ln_threshold = -settings.alpha.get().ln();
+    let mut feed = |at: usize| {
+        let answer = &data.answers[at];
+        if let Some(for_b) = answer.chose_b() {
+            let run = &mut runs[answer.condition as usize];
+            run.monitor.vote(for_b);
+            if run.reached.is_none() && run.monitor.ln_e >= ln_threshold {
+                run.reached = Some(run.monitor.votes.total());
+            }
+        }
+    };
+    let participant = |at: &usize| data.answers[*at].participant;
+    if data.answers.is_sorted_by_key(|answer| answer.participant) {
+        (0..data.answers.len()).for_each(&mut feed);
+    } else {
+        let mut order: Vec<usize> = (0..data.answers.len()).collect();
+        order.sort_by_key(participant);
+        order.into_iter().for_each(&mut feed);
+    }
+    runs
+}
+
+fn section(context: &Context<'_>) -> Option<Section> {
+    let Context { data, settings, .. } = *context;
+    if data.conditions.is_empty() {
+        return None;
+    }
+    let runs = runs(data, settings);
+    let corrected = corrected(data, settings, &runs);
+    let status = if data.conditions.iter().all(|c| c.votes.total() == 0) {
+        Status::Degenerate
+    } else if data.has_answers() {
+        Status::Ok
+    } else {
+        Status::NotAvailable
+    };
+    Some(Section {
+        id: "sequential",
+        title: "Anytime-valid test",
+        status,
+        findings: match status {
+            Status::Degenerate => vec!["No condition has a vote: nothing was tested.".to_owned()],
+            Status::Ok => findings(data, settings, &runs, &corrected),
+            _ => vec!["Only counts are known, not the order of the answers: there are no anytime-valid p. The e-values and intervals are those of the last vote: they hold for one look at a number of votes fixed before.".to_owned()],
+        },
+        tables: vec![SectionTable {
+            id: "by_condition",
+            caption: "e-values, the largest on the way, anytime-valid p with Holm's correction, confidence sequence of b's share at the last vote, and the vote at which p first reached alpha",
+            long: false,
+            table: table(data, settings, &runs, &corrected),
+        }],
+    })
+}
+
+/// Holm over the declared family; it holds for any dependence, also of anytime-valid p.
+fn corrected(
+    data: &Dataset,
+    settings: &Settings,
+    runs: &[Run],
+) -> Vec<Result<Probability, Undefined>> {
+    let of_family = |i: usize| settings.in_family(&data.conditions[i].id);
+    let tested: Vec<Probability> = (runs.iter().enumerate())
+        .filter(|(i, _)| of_family(*i))
+        .filter_map(|(_, run)| run.p().ok())
+        .collect();
+    let mut adjusted = holm::adjust(&tested).into_iter();
+    (runs.iter().enumerate())
+        .map(|(i, run)| match run.p() {
+            Ok(_) if !of_family(i) => Err(OUTSIDE),
+            Ok(p) => Ok(adjusted.next().unwrap_or(p)),
+            Err(why) => Err(why),
+        })
+        .collect()
+}
+
+fn findings(
+    data: &Dataset,
+    settings: &Settings,
+    runs: &[Run],
+    corrected: &[Result<Probability, Undefined>],
+) -> Vec<String> {
+    let with = |wanted: &dyn Fn(usize) -> bool| -> Vec<&str> {
+        (0..runs.len())
+            .filter(|i| wanted(*i))
+            .map(|i| data.conditions[i].id.as_str())
+            .collect()
+    };
+    let before = with(&|i| runs[i].p().is_ok_and(|p| p.at_most(settings.alpha)));
+    let after = with(&|i| corrected[i].is_ok_and(|p| p.at_most(settings.alpha)));
+    let named = |ids: &[&str]| {
+        if ids.is_empty() {
+            "none".to_owned()
+        } else {
+            format!("{} ({})", ids.len(), listed(ids))
+        }
+    };
+    vec![
+        format!(
+            "Of {}, each looked at after every answer, the anytime-valid p reached alpha = {} in: {} before correction; {} after Holm's.",
+            plural(runs.len(), "condition"),
+            settings.alpha.get(),
+            named(&before),
+            named(&after),
+        ),
+        "Answers are taken in the order in which participants appear in the input; the error rate holds if that is the order in which they took part.".to_owned(),
+        "p keeps the smallest value on the way; the interval is that of the last vote and may hold ½ again after p reached alpha.".to_owned(),
+    ]
+}
+
+fn table(
+    data: &Dataset,
+    settings: &Settings,
+    runs: &[Run],
+    corrected: &[Result<Probability, Undefined>],
+) -> Table {
+    let rows = (data.conditions.iter().zip(runs).zip(corrected))
+        .map(|((condition, run), corrected)| {
+            let [e_value, p, interval] = run.cells(settings);
+            let known = run.p();
+            let largest = run.monitor.ln_largest_e_value() * std::f64::consts::LOG10_E;
+            let reached = known.and_then(|_| run.reached.ok_or(NOT_REACHED));
+            vec![
+                Cell::Text(condition.id.clone()),
+                Cell::Count(condition.votes.total()),
+                e_value,
+                Cell::or_undefined(known, |_| Cell::Number(largest)),
+                Cell::or_undefined(known, |_| Cell::Count(run.monitor.largest_at())),
+                p,
+                Cell::or_undefined(*corrected, Cell::Probability),
+                interval,
+                Cell::or_undefined(reached, Cell::Count),
+            ]
+        })
+        .collect();
+    let evidence = |key, title, style| Column::new(key, title, style, Group::Evidence);
+    Table {
+        columns: vec![
+            Column::new("condition", "condition", Style::Text, Group::Key),
+            Column::new("votes", "votes", Style::Count, Group::Choices),
+            evidence("e_value_log10", "log₁₀ e", Style::Decimals(3)),
+            evidence("e_max_log10", "largest", Style::Decimals(3)),
+            evidence("e_max_at", "at vote", Style::Count),
+            evidence("p_anytime", "p anytime", Style::P),
+            evidence("p_anytime_holm", "Holm", Style::P),
+            evidence("anytime_ci", "interval", Style::Interval(3)),
+            evidence("reached_at", "reached at", Style::Count),
+        ],
+        rows,
+    }
+}
+
+#[cfg(test)]
+mod tests;
