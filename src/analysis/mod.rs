@@ -23,6 +23,7 @@ pub mod exact_binomial;
 pub mod holm;
 pub mod mcnemar;
 pub mod position_bias;
+pub mod scaling;
 pub mod wilson;
 
 pub use dataset::Dataset;

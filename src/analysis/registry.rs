@@ -3,7 +3,7 @@
 use super::statistic::{About, ConditionStatistic, Correction, StudyStatistic};
 use super::{
     benjamini_hochberg, chi_square, clopper_pearson, effect_size, exact_binomial, holm, mcnemar,
-    position_bias, wilson,
+    position_bias, scaling, wilson,
 };
 
 /// Statistics of one condition.
@@ -20,7 +20,11 @@ pub const CONDITION_STATISTICS: &[ConditionStatistic] = &[
 pub const CORRECTIONS: &[Correction] = &[holm::CORRECTION, benjamini_hochberg::CORRECTION];
 
 /// Statistics of the whole study.
-pub const STUDY_STATISTICS: &[StudyStatistic] = &[position_bias::POOLED, mcnemar::STATISTIC];
+pub const STUDY_STATISTICS: &[StudyStatistic] = &[
+    position_bias::POOLED,
+    mcnemar::STATISTIC,
+    scaling::STATISTIC,
+];
 
 /// What each of them is, without repetition.
 #[must_use]
