@@ -28,6 +28,7 @@ pub mod mcnemar;
 pub mod order_effect;
 pub mod position_bias;
 pub mod response_times;
+pub mod scaling;
 pub mod sequential;
 pub mod wilson;
 

@@ -3,7 +3,8 @@
 use super::statistic::{About, AnswerStatistic, ConditionStatistic, Correction, StudyStatistic};
 use super::{
     audit, bayes_factor, benjamini_hochberg, chi_square, clopper_pearson, cochran_q, effect_size,
-    exact_binomial, holm, mcnemar, order_effect, position_bias, response_times, sequential, wilson,
+    exact_binomial, holm, mcnemar, order_effect, position_bias, response_times, scaling,
+    sequential, wilson,
 };
 
 /// Statistics of one condition.
@@ -32,6 +33,7 @@ pub const STUDY_STATISTICS: &[StudyStatistic] = &[
     bayes_factor::SENSITIVITY,
     sequential::STATISTIC,
     response_times::STATISTIC,
+    scaling::STATISTIC,
     audit::STATISTIC,
 ];
 

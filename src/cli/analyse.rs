@@ -129,7 +129,11 @@ fn settings(args: &AnalyseArgs, data: &Dataset) -> Result<Settings, Failure> {
     if !args.family.is_empty() {
         settings.family.clone_from(&args.family);
     }
-    let ids = || data.conditions.iter().map(|condition| condition.id.as_str());
+    let ids = || {
+        data.conditions
+            .iter()
+            .map(|condition| condition.id.as_str())
+    };
     let unknown = (settings.family.iter()).find(|id| !ids().any(|known| known == id.as_str()));
     match unknown {
         None => Ok(settings),

@@ -42,7 +42,10 @@ fn write_block(out: &mut String, block: Block) {
         Block::Figure(_) | Block::Terms(_) => {}
         Block::Table(block) if block.folded => {
             let rows = block.table.rows.len();
-            paragraph(out, &format!("{}: {rows} rows, in the page.", block.caption));
+            paragraph(
+                out,
+                &format!("{}: {rows} rows, in the page.", block.caption),
+            );
         }
         Block::Table(block) => {
             out.push('\n');

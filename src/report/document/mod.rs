@@ -96,7 +96,10 @@ impl Part {
         match block.table.rows.len() {
             0 => {}
             rows if rows > MOST_ROWS => {
-                self.note(format!("{}: {rows} rows, in the JSON report.", block.caption));
+                self.note(format!(
+                    "{}: {rows} rows, in the JSON report.",
+                    block.caption
+                ));
             }
             _ => self.blocks.push(Block::Table(block)),
         }

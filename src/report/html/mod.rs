@@ -69,9 +69,7 @@ fn write_block(page: &mut String, block: Block) {
 }
 
 fn write_terms(page: &mut String, terms: &[Term]) {
-    page.push_str(
-        "<details>\n<summary>Formulas, sources, and where each holds</summary>\n<dl>\n",
-    );
+    page.push_str("<details>\n<summary>Formulas, sources, and where each holds</summary>\n<dl>\n");
     for term in terms {
         let _ = writeln!(
             page,

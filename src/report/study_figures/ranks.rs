@@ -44,12 +44,7 @@ fn draw(analysis: &Analysis) -> Option<Drawing> {
         y += HEAD;
         for (row, rank) in (shown.iter()).filter(|(row, _)| row.text("condition") == group) {
             let middle = y + ROW / 2.0;
-            text(
-                &mut sheet.svg,
-                "label",
-                row.text("technique"),
-                middle + 4.5,
-            );
+            text(&mut sheet.svg, "label", row.text("technique"), middle + 4.5);
             let from = panel.x.at(1.0);
             (sheet.svg).line("wide", (from, middle), (panel.x.at(*rank), middle));
             sheet.svg.circle("dot", panel.x.at(*rank), middle, 5.0);

@@ -49,12 +49,7 @@ fn draw(analysis: &Analysis) -> Option<Drawing> {
         y += HEAD;
         for (row, _) in (shown.iter().zip(&headings)).filter(|(_, name)| *name == group) {
             let middle = y + ROW / 2.0;
-            text(
-                &mut sheet.svg,
-                "label",
-                row.text("technique"),
-                middle + 4.5,
-            );
+            text(&mut sheet.svg, "label", row.text("technique"), middle + 4.5);
             if let Some(ends) = row.interval("mean_ci") {
                 let (low, high) = (panel.x.at(ends.low), panel.x.at(ends.high));
                 sheet.svg.line("whisker", (low, middle), (high, middle));

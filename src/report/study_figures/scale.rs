@@ -51,7 +51,10 @@ fn draw(analysis: &Analysis) -> Option<Drawing> {
             (sheet.svg).text("panel-title", left, y + 16.0, Anchor::Start, &title);
             y += HEAD;
         }
-        for row in shown.iter().filter(|row| row.text("component") == component) {
+        for row in shown
+            .iter()
+            .filter(|row| row.text("component") == component)
+        {
             estimate(&mut sheet.svg, &panel, *row, y + ROW / 2.0);
             y += ROW;
         }

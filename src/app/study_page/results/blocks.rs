@@ -86,8 +86,7 @@ impl Face {
                 ui.label(theme::quiet(caption.clone()));
             }
             Self::Table(rows) if rows.block.folded => {
-                CollapsingHeader::new(rows.block.caption.clone())
-                    .show(ui, |ui| grid(ui, rows));
+                CollapsingHeader::new(rows.block.caption.clone()).show(ui, |ui| grid(ui, rows));
             }
             Self::Table(rows) => {
                 ui.label(theme::quiet(rows.block.caption.clone()));

@@ -124,9 +124,7 @@ impl Results {
                 self.read_of = Some(found);
                 let results = self.results.clone();
                 let scale = ui.ctx().pixels_per_point();
-                self.reading = Some(Task::start(ui.ctx(), move || {
-                    Report::read(&results, scale)
-                }));
+                self.reading = Some(Task::start(ui.ctx(), move || Report::read(&results, scale)));
             }
         }
         if self.follows {

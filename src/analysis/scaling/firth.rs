@@ -1,0 +1,97 @@
+//! Firth's penalty, which keeps estimates finite where votes went one way: the likelihood is
+//! multiplied by Jeffreys' prior |I(β)|^½.
+//!
+//! Source: D. Firth (1993), Biometrika 80(1), 27–38. For both links here the maximum is finite where
+//! the design has full rank, that is, where the comparisons are connected: I. Kosmidis, D. Firth
+//! (2021), Biometrika 108(1), 71–82.
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+use super::fit::{Design, Row};
+use super::link::{At, Link};
+
+/// With more rows the exact second derivative, which costs their square, is not worth it.
+const MOST_ROWS: usize = 64;
+
+/// ½ ln |I| and its derivatives at one point.
+pub(super) struct Penalty {
+    pub value: f64,
+    pub slope: DVector<f64>,
+    /// Sizes of the terms that the slope is the sum of.
+    pub size: DVector<f64>,
+    /// Minus the second derivative; `None` with many rows.
+    pub curvature: Option<DMatrix<f64>>,
+    /// In place of the whole objective's curvature: always positive definite.
+    pub stand_in: DMatrix<f64>,
+}
+
+/// The penalty where the rows' η and F are `points`.
+pub(super) fn penalty(
+    design: &Design,
+    link: Link,
+    points: &[(f64, At)],
+    fisher: &Cholesky<f64, Dyn>,
+) -> Penalty {
+    let n = design.parameters;
+    let covariance = fisher.inverse();
+    let (mut slope, mut size) = (DVector::zeros(n), DVector::zeros(n));
+    let mut stand_in = DMatrix::zeros(n, n);
+    let mut second = DMatrix::zeros(n, n);
+    let mut slopes = Vec::with_capacity(design.rows.len());
+    for (row, &(eta, at)) in design.rows.iter().zip(points) {
+        let weight = row.votes() * at.information();
+        // The row's diagonal element of the hat matrix.
+        let leverage = weight * product(design, &covariance, row, row);
+        let (first, next) = link.information_slope(eta, at);
+        let pull = 0.5 * leverage * first;
+        for (parameter, sign) in design.terms(row) {
+            slope[parameter] += sign * pull;
+            size[parameter] += pull.abs();
+        }
+        // As if half the leverage were added to wins and to losses.
+        design.add(
+            &mut stand_in,
+            row,
+            (row.votes() + leverage) * at.information(),
+        );
+        design.add(&mut second, row, -0.5 * leverage * (first * first + next));
+        slopes.push(weight * first);
+    }
+    Penalty {
+        value: fisher.l_dirty().diagonal().map(f64::ln).sum(),
+        slope,
+        size,
+        curvature: (design.rows.len() <= MOST_ROWS)
+            .then(|| second + crossed(design, &covariance, &slopes)),
+        stand_in,
+    }
+}
+
+/// x′Cy of two rows.
+fn product(design: &Design, covariance: &DMatrix<f64>, one: &Row, other: &Row) -> f64 {
+    let mut sum = 0.0;
+    for (at, sign) in design.terms(one) {
+        for (beside, other_sign) in design.terms(other) {
+            sum += sign * other_sign * covariance[(at, beside)];
+        }
+    }
+    sum
+}
+
+/// ½ Σ over pairs of rows of w′ᵣ w′ₛ (xᵣ′Cxₛ)² xᵣxₛ′: what d C = −C dI C adds.
+fn crossed(design: &Design, covariance: &DMatrix<f64>, slopes: &[f64]) -> DMatrix<f64> {
+    let n = design.parameters;
+    let mut sum = DMatrix::zeros(n, n);
+    for (one, slope) in design.rows.iter().zip(slopes) {
+        for (other, other_slope) in design.rows.iter().zip(slopes) {
+            let between = product(design, covariance, one, other);
+            let weight = 0.5 * slope * other_slope * between * between;
+            for (at, sign) in design.terms(one) {
+                for (beside, other_sign) in design.terms(other) {
+                    sum[(at, beside)] += sign * other_sign * weight;
+                }
+            }
+        }
+    }
+    sum
+}
