@@ -62,6 +62,7 @@ pub fn run(args: &AnalyseArgs) -> Result<(), Failure> {
     let options = Options {
         include_pilot: args.include_pilot,
         include_rejected: args.include_rejected,
+        ..Options::default()
     };
     let settings = Settings {
         alpha: args.alpha,

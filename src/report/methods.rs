@@ -6,6 +6,10 @@ use crate::analysis::conditions::main_family;
 
 /// The paragraph; its sources stand in the table of statistics.
 pub fn paragraph(analysis: &Analysis) -> String {
+    let computed = format!("Computed with Greyfield {VERSION}.");
+    if analysis.data.conditions.is_empty() {
+        return computed;
+    }
     let alpha = analysis.settings.alpha.get();
     let confidence = analysis.settings.alpha.confidence_percent();
     let tested = main_family(&analysis.data, &analysis.settings).size();
@@ -28,6 +32,5 @@ pub fn paragraph(analysis: &Analysis) -> String {
     {
         text += "Conditions that showed the same two techniques were compared within participants by McNemar's (1947) exact test, corrected by Holm. ";
     }
-    text += &format!("Computed with Greyfield {VERSION}.");
-    text
+    text + &computed
 }

@@ -17,6 +17,26 @@ pub fn render(analysis: &Analysis) -> String {
     for sentence in &analysis.conclusion {
         paragraph(&mut out, sentence);
     }
+    // Ratings and rankings have no conditions of choices.
+    if !analysis.data.conditions.is_empty() {
+        conditions(&mut out, analysis);
+    }
+    for section in &analysis.sections {
+        heading(&mut out, section.title);
+        for finding in &section.findings {
+            paragraph(&mut out, finding);
+        }
+        for part in section.tables.iter().filter(|part| !part.long) {
+            paragraph(&mut out, &format!("{}:", part.caption));
+            table(&mut out, &part.table);
+        }
+    }
+    inputs(&mut out, analysis);
+    out
+}
+
+/// The wide table of conditions in parts.
+fn conditions(out: &mut String, analysis: &Analysis) {
     let confidence = analysis.settings.alpha.confidence_percent();
     let has_answers = analysis.data.has_answers();
     for (title, groups) in [
@@ -43,21 +63,9 @@ pub fn render(analysis: &Analysis) -> String {
         if groups.contains(&Group::Position) && !has_answers {
             continue;
         }
-        heading(&mut out, &title);
-        table(&mut out, &analysis.conditions.only(groups));
+        heading(out, &title);
+        table(out, &analysis.conditions.only(groups));
     }
-    for section in &analysis.sections {
-        heading(&mut out, section.title);
-        for finding in &section.findings {
-            paragraph(&mut out, finding);
-        }
-        for part in section.tables.iter().filter(|part| !part.long) {
-            paragraph(&mut out, &format!("{}:", part.caption));
-            table(&mut out, &part.table);
-        }
-    }
-    inputs(&mut out, analysis);
-    out
 }
 
 fn heading(out: &mut String, title: &str) {

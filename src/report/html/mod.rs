@@ -31,9 +31,12 @@ pub fn render(analysis: &Analysis) -> String {
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Greyfield: analysis of choices</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n"
     );
     result(&mut page, analysis);
-    choices(&mut page, analysis);
-    tests(&mut page, analysis);
-    position(&mut page, analysis);
+    // Ratings and rankings have no conditions of choices.
+    if !analysis.data.conditions.is_empty() {
+        choices(&mut page, analysis);
+        tests(&mut page, analysis);
+        position(&mut page, analysis);
+    }
     sections(&mut page, analysis);
     methods_section(&mut page, analysis);
     provenance(&mut page, analysis);
