@@ -2,7 +2,7 @@
 
 use super::chi_square::FEWEST_VOTES;
 use super::conditions::{Family, Verdict, main_family, tests};
-use super::dataset::Dataset;
+use super::dataset::{Dataset, Rank};
 use super::holm;
 use super::settings::Settings;
 use super::tails::Probability;
@@ -18,9 +18,13 @@ pub fn p_text(p: Probability) -> String {
     }
 }
 
-/// The main result: who answered, what differs from an even split before and after Holm.
+/// The main result: who answered, what differs from an even split before and after Holm. Of
+/// ratings and rankings their sections say what was found.
 #[must_use]
 pub fn sentences(data: &Dataset, settings: &Settings) -> Vec<String> {
+    if data.conditions.is_empty() {
+        return judged(data).into_iter().collect();
+    }
     let mut sentences = vec![who(data)];
     let tested = main_family(data, settings).size();
     if tested == 0 {
@@ -39,6 +43,32 @@ pub fn sentences(data: &Dataset, settings: &Settings) -> Vec<String> {
     sentences.extend(by_hypothesis(data, settings));
     sentences.extend(few_votes(data));
     sentences
+}
+
+/// What was rated or ranked, and by how many.
+fn judged(data: &Dataset) -> Option<String> {
+    let participants = plural(data.participants.len(), "participant");
+    let (ratings, rankings) = (&data.ratings, &data.rankings);
+    if !ratings.answers.is_empty() {
+        return Some(format!(
+            "{participants} rated {} in {} on {}: {}.",
+            plural(ratings.techniques.len(), "technique"),
+            plural(ratings.conditions.len(), "condition"),
+            plural(ratings.scales.len(), "scale"),
+            plural(ratings.answers.len(), "rating"),
+        ));
+    }
+    let of_one = |one: &Rank, other: &Rank| {
+        (one.participant, one.condition) == (other.participant, other.condition)
+    };
+    (!rankings.answers.is_empty()).then(|| {
+        format!(
+            "{participants} ranked {} in {}: {}.",
+            plural(rankings.techniques.len(), "technique"),
+            plural(rankings.conditions.len(), "condition"),
+            plural(rankings.answers.chunk_by(of_one).count(), "ranking"),
+        )
+    })
 }
 
 fn who(data: &Dataset) -> String {

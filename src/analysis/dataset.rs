@@ -3,6 +3,7 @@
 
 use serde::Serialize;
 
+use super::tails::Alpha;
 use crate::protocol::Position;
 
 /// Votes for the two techniques of one condition.
@@ -157,7 +158,8 @@ pub struct Ratings {
     pub techniques: Vec<String>,
     /// The scales.
     pub scales: Vec<String>,
-    /// The ratings; one a participant, condition, technique and scale.
+    /// The ratings; one a participant, condition, technique and scale, sorted by participant,
+    /// condition, scale and technique.
     pub answers: Vec<Rating>,
 }
 
@@ -183,7 +185,7 @@ pub struct Rankings {
     pub conditions: Vec<String>,
     /// The techniques, in order of appearance.
     pub techniques: Vec<String>,
-    /// The ranks; one a participant, condition and technique.
+    /// The ranks; one a participant, condition and technique, sorted by those.
     pub answers: Vec<Rank>,
 }
 
@@ -224,6 +226,15 @@ pub struct StudyFacts {
     pub versions: Vec<String>,
     /// What participants told of themselves: question, and answers with their number.
     pub participants_told: Vec<(String, Vec<(String, u32)>)>,
+}
+
+/// What a protocol declares of the tests.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Declared {
+    /// Significance level.
+    pub alpha: Option<Alpha>,
+    /// Ids of the conditions of the family; empty: all of them.
+    pub family: Vec<String>,
 }
 
 /// Data left out by a rule that was laid down before.
@@ -269,6 +280,8 @@ pub struct Dataset {
     pub rankings: Rankings,
     /// What the study's protocol says, where it is known.
     pub study: Option<StudyFacts>,
+    /// What that protocol declares of the tests; for whoever makes the [`Settings`](super::Settings).
+    pub declared: Option<Declared>,
     /// What was left out by rule; a rule that touched nobody is here, too.
     pub exclusions: Vec<Exclusion>,
     /// What a reader of the results should know about the input: left-out rows, repaired lines.
@@ -280,6 +293,16 @@ impl Dataset {
     #[must_use]
     pub fn has_answers(&self) -> bool {
         !self.answers.is_empty()
+    }
+
+    /// Whether there is nothing at all to analyse.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        let counted = self.conditions.iter().any(|it| it.orders.is_none());
+        !counted
+            && !self.has_answers()
+            && self.ratings.answers.is_empty()
+            && self.rankings.answers.is_empty()
     }
 }
 

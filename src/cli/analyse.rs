@@ -83,6 +83,7 @@ pub fn run(args: &AnalyseArgs, verbosity: Verbosity) -> Result<(), Failure> {
     let options = Options {
         include_pilot: args.include_pilot,
         include_rejected: args.include_rejected,
+        ..Options::default()
     };
     let start = Instant::now();
     let data = input::read(&args.inputs, options).map_err(Failure::bad_input)?;

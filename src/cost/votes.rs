@@ -73,6 +73,11 @@ pub fn join(
     votes: &Dataset,
     rows: &[Row],
 ) -> Result<Vec<Preference>, CostError> {
+    if votes.conditions.is_empty() {
+        return Err(CostError::Input(String::from(
+            "votes: there are ratings or rankings, and no choices between two images",
+        )));
+    }
     let of = |data: &ConditionData| preference(set, data, rows);
     votes.conditions.iter().map(of).collect()
 }

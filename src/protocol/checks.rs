@@ -2,13 +2,14 @@
 
 use super::locale::Texts;
 use super::options::twice;
-use super::{Language, Protocol};
+use super::{Language, Protocol, analysis};
 
 /// The first thing that does not fit, with its field and how to mend it.
 pub(super) fn flaw(protocol: &Protocol) -> Option<String> {
     (protocol.procedure.flaw)(protocol)
         .or_else(|| named_twice(protocol))
         .or_else(|| catch_that_cannot_pass(protocol))
+        .or_else(|| analysis::flaw(protocol))
         .or_else(|| {
             texts_of(protocol).find_map(|(table, texts)| words_missing(protocol, &table, texts))
         })

@@ -9,8 +9,8 @@ use super::design::{Design, InnerOrder};
 use super::locale::Texts;
 use super::options::{Breaks, Catch, ImageTime, MetadataField, Practice, Reference, Scale};
 use super::procedure::{Procedure, TrialStart};
-use super::text::StudyId;
-use super::{DisplayRequirements, Key, Language, Words, checks};
+use super::text::{StudyId, Text};
+use super::{AnalysisPlan, DisplayRequirements, Key, Language, Words, checks};
 use crate::config::quantity::{Milliseconds, SrgbLevel, quantity};
 use crate::config::{self, ConfigError};
 use crate::digest;
@@ -81,6 +81,12 @@ pub struct Protocol {
     /// Optional questions about the participant, in the order asked.
     #[serde(default, rename = "metadata")]
     pub metadata: Vec<MetadataField>,
+    /// What the study is to show, by name (`H1`): as conditions of the set name it.
+    #[serde(default)]
+    pub hypotheses: BTreeMap<String, Text>,
+    /// What is laid down of the analysis.
+    #[serde(default)]
+    pub analysis: Option<AnalysisPlan>,
     /// SHA-256 of the file's bytes: the name of exactly this protocol in rows.
     #[serde(skip)]
     pub hash: String,

@@ -3,6 +3,7 @@
 //! Everything here is a pure function of (protocol, seed, slot): no clock, no
 //! disk, no window. The same three give the same session on any machine, forever.
 
+pub mod analysis;
 pub mod balance;
 mod checks;
 pub mod config;
@@ -16,6 +17,7 @@ pub mod plan;
 pub mod procedure;
 pub mod text;
 
+pub use analysis::AnalysisPlan;
 pub use balance::Balance;
 pub use config::Protocol;
 pub use display::DisplayRequirements;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::exhibit::Exhibits;
-use super::{Condition, Protocol};
+use super::{Condition, Protocol, analysis};
 use crate::seed;
 
 /// Which of the two images of a trial: by time, or from left to right where both
@@ -100,6 +100,16 @@ pub enum PlanError {
         found: String,
         /// What could.
         known: String,
+    },
+    /// A rule that would leave everybody out.
+    #[error(
+        "field `analysis.minimum_main_trials`: found {needed}, but a session has only {there} main trials"
+    )]
+    TooFewTrials {
+        /// As the protocol asks.
+        needed: usize,
+        /// As there are.
+        there: usize,
     },
     /// No image to compare a pair with.
     #[error(
@@ -220,6 +230,8 @@ impl Planner<'_> {
         if main.is_empty() {
             return Err(PlanError::NoConditions);
         }
+        let of_main: Vec<&Condition> = main.iter().map(|&i| &self.conditions[i]).collect();
+        analysis::check(self.protocol, &of_main)?;
         let protocol = self.protocol;
         let order = protocol.design.order;
         let places = order(main.len(), protocol.seed, self.slot, protocol.inner_order);

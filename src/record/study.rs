@@ -15,10 +15,10 @@ use crate::config;
 use crate::protocol::Protocol;
 
 /// What a results folder belongs to.
-pub(super) const STUDY_FILE: &str = "study.json";
+pub const STUDY_FILE: &str = "study.json";
 
 /// The protocol's file as it was.
-pub(super) const PROTOCOL_FILE: &str = "materials/protocol.toml";
+pub const PROTOCOL_FILE: &str = "materials/protocol.toml";
 
 /// An open results folder.
 #[derive(Debug)]

@@ -1,10 +1,14 @@
-//! The count table: `condition,technique_a,technique_b,votes_a,votes_b[,hypothesis]`.
+//! The count table: `condition,technique_a,technique_b,votes_a,votes_b[,hypothesis][,scene]
+//! [,published_chi_square][,published_p]`.
 
-use std::collections::HashMap;
+use std::ops::RangeInclusive;
 
-use super::csv_file::{CsvFile, Row};
+use super::csv_file::{CsvFile, Row, shown};
 use super::error::InputError;
-use crate::analysis::dataset::{ConditionData, Source, Votes};
+use super::files::Files;
+use super::lookalikes;
+use super::names::Names;
+use crate::analysis::dataset::{ConditionData, Dataset, Published, Source, Votes};
 
 /// What the file is called in reports.
 pub const KIND: &str = "count table";
@@ -17,7 +21,7 @@ pub const REQUIRED: &[&str] = &[
     "votes_b",
 ];
 /// Columns that may be.
-pub const OPTIONAL: &[&str] = &["hypothesis"];
+pub const OPTIONAL: &[&str] = &["hypothesis", "scene", "published_chi_square", "published_p"];
 
 /// Most votes for one technique; two of them and the sums over conditions stay exact.
 const MOST_VOTES: u32 = 1_000_000_000;
@@ -26,8 +30,9 @@ const MOST_VOTES: u32 = 1_000_000_000;
 #[derive(Default)]
 pub struct Counts {
     conditions: Vec<ConditionData>,
-    /// Where each id was read.
-    places: HashMap<String, String>,
+    ids: Names,
+    techniques: Names,
+    files: Files,
 }
 
 impl Counts {
@@ -37,8 +42,15 @@ impl Counts {
     }
 
     /// The conditions in the order read.
-    pub fn into_conditions(self) -> Vec<ConditionData> {
-        self.conditions
+    pub fn finish(self) -> Dataset {
+        Dataset {
+            notes: [("condition", &self.ids), ("technique", &self.techniques)]
+                .into_iter()
+                .flat_map(|(kind, names)| lookalikes::notes(kind, names, &self.files))
+                .collect(),
+            conditions: self.conditions,
+            ..Dataset::default()
+        }
     }
 
     /// Reads the rows of a file recognised by its header.
@@ -54,9 +66,11 @@ impl Counts {
             at("votes_a"),
             at("votes_b"),
         ) else {
-            return Err(super::missing_columns(&file, REQUIRED));
+            return Err(super::layout::missing_columns(&file, REQUIRED));
         };
-        let hypothesis = at("hypothesis");
+        let (hypothesis, scene) = (at("hypothesis"), at("scene"));
+        let (chi_square, p) = (at("published_chi_square"), at("published_p"));
+        self.files.begin(file.path(), 0);
         let path = file.path().display().to_string();
         let mut rows_used = 0;
         while let Some(row) = file.next_row()? {
@@ -64,11 +78,12 @@ impl Counts {
                 id: name(&row, id)?,
                 technique_a: name(&row, a)?,
                 technique_b: name(&row, b)?,
-                hypothesis: hypothesis
-                    .map(|at| row.text(at))
-                    .transpose()?
-                    .filter(|text| !text.is_empty())
-                    .map(str::to_owned),
+                hypothesis: optional(&row, hypothesis)?,
+                scene: optional(&row, scene)?,
+                published: Published {
+                    chi_square: printed(&row, chi_square, 0.0..=f64::MAX, "0 or more")?,
+                    p: printed(&row, p, 0.0..=1.0, "from 0 to 1")?,
+                },
                 votes: Votes {
                     a: votes(&row, votes_a)?,
                     b: votes(&row, votes_b)?,
@@ -81,11 +96,18 @@ impl Counts {
                     condition.technique_a
                 )));
             }
-            let here = format!("{path}:{}", row.line);
-            if let Some(before) = self.places.insert(condition.id.clone(), here) {
+            let here = self.files.here(row.line);
+            for technique in [&condition.technique_a, &condition.technique_b] {
+                self.techniques.number(technique.as_bytes(), here);
+            }
+            let number = self.ids.number(condition.id.as_bytes(), here);
+            if let Some(before) = number.map(|it| it as usize)
+                && before < self.conditions.len()
+            {
                 return Err(row.row_error(format!(
-                    "condition {} stands here a second time; the first is {before}. Remove one of them",
-                    condition.id
+                    "condition {} stands here a second time; the first is {}. Remove one of them",
+                    condition.id,
+                    self.files.shown(self.ids.place(before)),
                 )));
             }
             self.conditions.push(condition);
@@ -105,6 +127,34 @@ fn name(row: &Row<'_>, column: usize) -> Result<String, InputError> {
     match row.text(column)? {
         "" => Err(row.error(column, "is empty, a name is needed")),
         text => Ok(text.to_owned()),
+    }
+}
+
+/// A text, where the column is there and not empty.
+fn optional(row: &Row<'_>, column: Option<usize>) -> Result<Option<String>, InputError> {
+    let text = column.map(|at| row.text(at)).transpose()?;
+    Ok(text.filter(|text| !text.is_empty()).map(str::to_owned))
+}
+
+/// A number as it was printed, digit for digit.
+fn printed(
+    row: &Row<'_>,
+    column: Option<usize>,
+    range: RangeInclusive<f64>,
+    allowed: &str,
+) -> Result<Option<String>, InputError> {
+    let (Some(at), Some(text)) = (column, optional(row, column)?) else {
+        return Ok(None);
+    };
+    match text.parse::<f64>() {
+        Ok(value) if range.contains(&value) => Ok(Some(text)),
+        _ => Err(row.error(
+            at,
+            &format!(
+                "found `{}`, a number {allowed} as it was printed is needed, or nothing",
+                shown(&text)
+            ),
+        )),
     }
 }
 

@@ -229,6 +229,19 @@ fn header_names(path: &Path, record: &ByteRecord, line: u64) -> Result<Vec<Strin
                 })
         })
         .collect::<Result<Vec<String>, _>>()?;
+    if names.iter().any(|name| name.contains('\0')) {
+        return Err(InputError::whole(
+            path,
+            "the file is no plain text (or UTF-16); save it as CSV in UTF-8 and try again",
+        ));
+    }
+    if names.iter().any(|name| name.contains('\r')) {
+        return Err(InputError::line(
+            path,
+            line,
+            "its lines end in a carriage return alone; save the file with line feeds and try again",
+        ));
+    }
     if let [only] = names.as_slice()
         && let Some(separator) = [';', '\t', '|'].into_iter().find(|&c| only.contains(c))
     {
@@ -324,6 +337,8 @@ mod tests {
             (b"a;b\n", &[":1:", "';'", "commas"]),
             (b"a,b,a\n", &[":1:", "`a` twice"]),
             (b"\xff\xfea\x00", &["UTF-16"]),
+            (b"a\x00,\x00b\x00\n\x00", &["UTF-16", "UTF-8"]),
+            (b"a,b\r1,2\r", &[":1:", "carriage return", "line feeds"]),
             (b"\xe9,b\n", &[":1:", "UTF-8"]),
         ] {
             let message = error_of(bytes);

@@ -1,11 +1,18 @@
-//! Reads whatever holds the choices: a results folder, session files, a plain trial table or a
-//! table of counts. A file is recognised by its columns.
+//! Reads whatever holds the answers: a results folder, session files, a plain table of trials,
+//! ranks or ratings, or a table of counts. A file is recognised by its columns.
 
 mod count_table;
 mod csv_file;
 mod error;
+mod files;
+mod judgement_tables;
+mod judgements;
+mod layout;
+mod lookalikes;
 mod names;
 mod results;
+mod rules;
+mod studies;
 #[cfg(test)]
 mod tests;
 mod trial_table;
@@ -13,100 +20,152 @@ mod trials;
 
 use std::path::{Path, PathBuf};
 
-use super::dataset::Dataset;
+use super::dataset::{Dataset, Source};
 use count_table::Counts;
-use csv_file::{CsvFile, shown};
+use csv_file::CsvFile;
 pub use error::InputError;
+use judgements::Judgements;
+use rules::Rules;
+use studies::Studies;
 use trials::Trials;
 
 /// What to take in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Options {
     /// Count pilot sessions too.
     pub include_pilot: bool,
     /// Count participants the experimenter has rejected too.
     pub include_rejected: bool,
+    /// Leave out trials answered in less than this, whatever the protocol says.
+    pub minimum_response_ms: Option<f64>,
+    /// Leave out trials answered in more.
+    pub maximum_response_ms: Option<f64>,
 }
 
-/// A layout that is recognised.
-struct Layout {
-    kind: &'static str,
-    required: &'static [&'static str],
-    /// Columns that are used where they are there.
-    optional: Option<&'static [&'static str]>,
+/// What was read so far; of the four kinds one alone can be analysed.
+#[derive(Default)]
+struct Gathered {
+    trials: Trials,
+    counts: Counts,
+    ratings: Judgements,
+    rankings: Judgements,
 }
-
-/// The layouts, in the order they are tried.
-const LAYOUTS: [Layout; 3] = [
-    Layout {
-        kind: results::KIND,
-        required: results::REQUIRED,
-        // A session file has many columns more, each of them Greyfield's own.
-        optional: None,
-    },
-    Layout {
-        kind: trial_table::KIND,
-        required: trial_table::REQUIRED,
-        optional: Some(trial_table::OPTIONAL),
-    },
-    Layout {
-        kind: count_table::KIND,
-        required: count_table::REQUIRED,
-        optional: Some(count_table::OPTIONAL),
-    },
-];
 
 /// Reads the inputs, files and folders, into one dataset.
 ///
 /// # Errors
 /// [`InputError`] naming file and line, what was found, what is allowed.
 pub fn read(inputs: &[PathBuf], options: Options) -> Result<Dataset, InputError> {
-    let (mut trials, mut counts) = (Trials::default(), Counts::default());
+    let mut gathered = Gathered::default();
     let mut left_out = results::LeftOut::default();
+    let mut studies = Studies::default();
     let (mut sources, mut notes) = (Vec::new(), Vec::new());
-    let files = files_of(inputs, &mut trials)?;
+    let files = files_of(inputs)?;
     for (path, known) in &files {
-        let kind = known.map_or_else(|| recognise(path, &mut notes), Ok)?;
-        sources.push(match kind {
-            results::KIND => results::read(path, &mut trials, options, &mut left_out, &mut notes)?,
-            count_table::KIND => counts.read(CsvFile::open(path)?)?,
-            _ => trial_table::read(CsvFile::open(path)?, &mut trials)?,
-        });
-        if !counts.is_empty() && !trials.is_empty() {
-            return Err(InputError::whole(
+        let kind = known.map_or_else(|| layout::recognise(path, &mut notes), Ok)?;
+        sources.push(if kind == results::KIND {
+            results::read(
                 path,
-                "counts and single answers cannot be analysed together; give one kind",
-            ));
-        }
+                &mut gathered,
+                options,
+                &mut studies,
+                &mut left_out,
+                &mut notes,
+            )?
+        } else {
+            gathered.read_table(path, kind)?
+        });
+        gathered.refuse_mixture(path)?;
     }
     notes.extend(left_out.notes());
-    if counts.is_empty() && trials.is_empty() {
+    if gathered.kinds().next().is_none() {
         return Err(nothing_left(&files, &notes));
     }
-    let mut data = if counts.is_empty() {
-        trials.finish()?
-    } else {
-        Dataset {
-            conditions: counts.into_conditions(),
-            ..Dataset::default()
-        }
-    };
+    if !gathered.counts.is_empty() && options.limits_times() {
+        notes.push(
+            "counts have no response times: no limit of the response time was applied.".to_owned(),
+        );
+    }
+    let mut data = gathered.finish(&studies.rules(options))?;
+    let (study, declared) = studies.facts(&data.participants, &mut notes);
+    (data.study, data.declared) = (study, declared);
     data.sources = sources;
+    notes.append(&mut data.notes);
     data.notes = notes;
+    if data.is_empty() {
+        let rules = data.exclusions.iter().filter(|rule| rule.trials > 0);
+        data.notes
+            .extend(rules.map(|rule| format!("{} trials left out: {}", rule.trials, rule.rule)));
+        return Err(nothing_left(&files, &data.notes));
+    }
     Ok(data)
+}
+
+impl Options {
+    fn limits_times(self) -> bool {
+        self.minimum_response_ms.is_some() || self.maximum_response_ms.is_some()
+    }
+}
+
+impl Gathered {
+    fn read_table(&mut self, path: &Path, kind: &str) -> Result<Source, InputError> {
+        let file = CsvFile::open(path)?;
+        match kind {
+            count_table::KIND => self.counts.read(file),
+            judgement_tables::RANKS => judgement_tables::read_ranks(file, &mut self.rankings),
+            judgement_tables::RATINGS => judgement_tables::read_ratings(file, &mut self.ratings),
+            _ => trial_table::read(file, &mut self.trials),
+        }
+    }
+
+    /// The kinds of which something was read.
+    fn kinds(&self) -> impl Iterator<Item = &'static str> + use<> {
+        [
+            ("counts", self.counts.is_empty()),
+            ("single choices", self.trials.is_empty()),
+            ("ratings", self.ratings.is_empty()),
+            ("rankings", self.rankings.is_empty()),
+        ]
+        .into_iter()
+        .filter_map(|(kind, is_empty)| (!is_empty).then_some(kind))
+    }
+
+    fn refuse_mixture(&self, path: &Path) -> Result<(), InputError> {
+        let mut kinds = self.kinds();
+        match (kinds.next(), kinds.next()) {
+            (Some(one), Some(other)) => Err(InputError::whole(
+                path,
+                format!("{one} and {other} cannot be analysed together; give one kind"),
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    fn finish(self, rules: &[Rules]) -> Result<Dataset, InputError> {
+        if !self.counts.is_empty() {
+            return Ok(self.counts.finish());
+        }
+        if !self.ratings.is_empty() {
+            return self.ratings.into_ratings(rules);
+        }
+        if !self.rankings.is_empty() {
+            return self.rankings.into_rankings(rules);
+        }
+        self.trials.finish(rules)
+    }
 }
 
 /// A file, and what it is where the folder says so.
 type Found = (PathBuf, Option<&'static str>);
 
 /// The files of all inputs, folders opened, in the order given.
-fn files_of(inputs: &[PathBuf], trials: &mut Trials) -> Result<Vec<Found>, InputError> {
+fn files_of(inputs: &[PathBuf]) -> Result<Vec<Found>, InputError> {
     let mut all = Vec::new();
     for input in inputs {
         if !input.is_dir() {
             all.push((input.clone(), None));
         } else if results::is_results_folder(input) {
-            let files = results::data_files(input, trials)?;
+            let files = results::data_files(input)?;
             all.extend(files.into_iter().map(|file| (file, Some(results::KIND))));
         } else {
             let files = csv_files_in(input)?;
@@ -134,115 +193,6 @@ fn csv_files_in(folder: &Path) -> Result<Vec<PathBuf>, InputError> {
     }
     files.sort();
     Ok(files)
-}
-
-/// What a file is, by its columns. Columns nobody reads are noted.
-fn recognise(path: &Path, notes: &mut Vec<String>) -> Result<&'static str, InputError> {
-    let file = CsvFile::open(path)?;
-    let layout = layout_of(&file)?;
-    notes.extend(unused_columns(&file, layout));
-    Ok(layout.kind)
-}
-
-fn layout_of(file: &CsvFile) -> Result<&'static Layout, InputError> {
-    let missing = |layout: &Layout| {
-        layout
-            .required
-            .iter()
-            .filter(|name| file.column(name).is_none())
-            .count()
-    };
-    if let Some(layout) = LAYOUTS.iter().find(|layout| missing(layout) == 0) {
-        return Ok(layout);
-    }
-    for (column, kind) in [("rank", "rank"), ("rating", "rating")] {
-        if file.column(column).is_some() && file.column("technique").is_some() {
-            return Err(InputError::whole(
-                file.path(),
-                format!(
-                    "this is a {kind} table; this version analyses choices between two images only"
-                ),
-            ));
-        }
-    }
-    // The closest layout is the one that the writer most likely meant.
-    let closest = LAYOUTS
-        .iter()
-        .min_by_key(|layout| (missing(layout) * 100) / layout.required.len())
-        .filter(|layout| missing(layout) * 2 <= layout.required.len());
-    Err(match closest {
-        Some(layout) => missing_columns(file, layout.required),
-        None => {
-            let layouts: Vec<String> = LAYOUTS
-                .iter()
-                .map(|layout| format!("{} ({})", layout.required.join(","), layout.kind))
-                .collect();
-            InputError::line(
-                file.path(),
-                1,
-                format!(
-                    "the columns {} belong to no table known; known are {}",
-                    found_columns(file),
-                    layouts.join("; "),
-                ),
-            )
-        }
-    })
-}
-
-/// The error for a header that lacks columns.
-fn missing_columns(file: &CsvFile, required: &[&str]) -> InputError {
-    let missing: Vec<&str> = required
-        .iter()
-        .copied()
-        .filter(|name| file.column(name).is_none())
-        .collect();
-    InputError::line(
-        file.path(),
-        1,
-        format!(
-            "the header lacks {}; found {}, needed {}",
-            missing
-                .iter()
-                .map(|name| format!("`{name}`"))
-                .collect::<Vec<_>>()
-                .join(", "),
-            found_columns(file),
-            required.join(","),
-        ),
-    )
-}
-
-fn found_columns(file: &CsvFile) -> String {
-    const MOST: usize = 300;
-    let names: Vec<String> = file.header().iter().map(|name| shown(name)).collect();
-    let mut joined = names.join(",");
-    if joined.chars().count() > MOST {
-        joined = joined.chars().take(MOST).collect::<String>() + "…";
-    }
-    joined
-}
-
-/// A note on columns nobody reads: they may be a misspelt optional one.
-fn unused_columns(file: &CsvFile, layout: &Layout) -> Option<String> {
-    let optional = layout.optional?;
-    let unused: Vec<String> = file
-        .header()
-        .iter()
-        .filter(|name| {
-            !layout.required.contains(&name.as_str()) && !optional.contains(&name.as_str())
-        })
-        .map(|name| format!("`{}`", shown(name)))
-        .collect();
-    (!unused.is_empty()).then(|| {
-        format!(
-            "{}: not used: {}; a {} may also have {}.",
-            file.path().display(),
-            unused.join(", "),
-            layout.kind,
-            optional.join(", "),
-        )
-    })
 }
 
 fn nothing_left(files: &[Found], notes: &[String]) -> InputError {

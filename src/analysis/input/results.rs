@@ -1,18 +1,20 @@
 //! Greyfield's own results: a folder with `study.json` and `data/…_data.csv`, or one such file.
 //! The rows come from [`record`](crate::record), which tests every line's checksum.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::Options;
+use super::csv_file::shown;
 use super::error::InputError;
-use super::trials::{Observation, Trials};
+use super::judgements::Judgement;
+use super::studies::{Studies, folder_of};
+use super::trials::Observation;
+use super::{Gathered, Options};
 use crate::analysis::dataset::Source;
 use crate::digest;
 use crate::protocol::Phase;
-use crate::record::{
-    self, DATA_FOLDER, DATA_SUFFIX, InputDevice, Response, StudyIdentity, TrialRow,
-};
+use crate::record::row::LIST_SEPARATOR;
+use crate::record::{self, DATA_FOLDER, DATA_SUFFIX, InputDevice, Response, TrialRow};
 
 /// What a data file is called in reports.
 pub const KIND: &str = "session file";
@@ -33,35 +35,24 @@ pub struct LeftOut {
     practice: u64,
     catch: u64,
     pilot: u64,
-    /// Ratings and rankings.
-    no_choice: u64,
+    no_answer: u64,
     cannot_tell: u64,
     /// Trials of each rejected participant.
     rejected: BTreeMap<String, u64>,
-    /// Who was rejected, by results folder: read once.
-    rejections: HashMap<PathBuf, BTreeSet<String>>,
     /// Trials a scripted observer answered; they are used, and reported.
     scripted: u64,
 }
 
 /// Whether a folder is a results folder.
 pub fn is_results_folder(folder: &Path) -> bool {
-    folder.join("study.json").is_file() || folder.join(DATA_FOLDER).is_dir()
+    folder.join(record::study::STUDY_FILE).is_file() || folder.join(DATA_FOLDER).is_dir()
 }
 
-/// The data files of a results folder, sorted by name. The study's base orders are declared first.
+/// The data files of a results folder, sorted by name.
 ///
 /// # Errors
 /// [`InputError`] for a folder that cannot be read or has no data files.
-pub fn data_files(folder: &Path, trials: &mut Trials) -> Result<Vec<PathBuf>, InputError> {
-    let study = folder.join("study.json");
-    if study.is_file() {
-        let text = std::fs::read_to_string(&study)
-            .map_err(|error| InputError::unreadable(&study, error))?;
-        let identity: StudyIdentity = serde_json::from_str(&text)
-            .map_err(|error| InputError::whole(&study, format!("not a study: {error}")))?;
-        trials.declare(&study, &identity.conditions)?;
-    }
+pub fn data_files(folder: &Path) -> Result<Vec<PathBuf>, InputError> {
     let data = folder.join(DATA_FOLDER);
     let mut files = if data.is_dir() {
         super::csv_files_in(&data)?
@@ -87,33 +78,39 @@ pub fn data_files(folder: &Path, trials: &mut Trials) -> Result<Vec<PathBuf>, In
 /// [`InputError`] with file and line.
 pub fn read(
     path: &Path,
-    trials: &mut Trials,
+    gathered: &mut Gathered,
     options: Options,
+    studies: &mut Studies,
     left_out: &mut LeftOut,
     notes: &mut Vec<String>,
 ) -> Result<Source, InputError> {
-    trials.begin_file(path);
+    let number = study_of(path, gathered, studies, notes)?;
+    gathered.trials.begin_file(path, number);
+    gathered.ratings.begin_file(path, number);
+    gathered.rankings.begin_file(path, number);
     let read = record::read_rows(path)?;
     notes.extend(read.warnings.iter().map(ToString::to_string));
-    let rejected = left_out.rejected_beside(path)?;
+    let study = studies.get(number);
     let (mut rows_used, mut rows_left_out) = (0, 0);
     for (row, &line) in read.rows.iter().zip(&read.lines) {
-        if let Some(count) = left_out.reason(row, &rejected, options) {
+        if !options.include_rejected && study.rejected.contains(&row.participant_id) {
+            *left_out
+                .rejected
+                .entry(row.participant_id.clone())
+                .or_default() += 1;
+            rows_left_out += 1;
+            continue;
+        }
+        if options.include_pilot || !row.pilot {
+            study.see(row);
+        }
+        if let Some(count) = left_out.reason(row, options) {
             *count += 1;
             rows_left_out += 1;
             continue;
         }
         left_out.scripted += u64::from(row.input_device == InputDevice::Scripted);
-        trials.add(&Observation {
-            participant: row.participant_id.as_bytes(),
-            condition: row.condition.as_bytes(),
-            first_technique: row.technique_first.as_bytes(),
-            second_technique: row.technique_second.as_bytes(),
-            chosen: row.response.and_then(Response::position),
-            response_time_ms: row.response_time_ms.map(|time| time as f32),
-            hypothesis: None,
-            line,
-        })?;
+        add(row, path, line, gathered)?;
         rows_used += 1;
     }
     let sha256 = digest::sha256_file(path).map_err(|error| InputError::unreadable(path, error))?;
@@ -126,36 +123,112 @@ pub fn read(
     })
 }
 
-impl LeftOut {
-    /// Who was rejected in the results folder that a data file stands in.
-    fn rejected_beside(&mut self, file: &Path) -> Result<BTreeSet<String>, InputError> {
-        let results = file.parent().unwrap_or(Path::new("")).join("..");
-        if let Some(known) = self.rejections.get(&results) {
-            return Ok(known.clone());
+/// The number of the study a data file is of. The study's base orders are declared with its first
+/// file.
+fn study_of(
+    path: &Path,
+    gathered: &mut Gathered,
+    studies: &mut Studies,
+    notes: &mut Vec<String>,
+) -> Result<u32, InputError> {
+    let folder = folder_of(path);
+    let (number, is_new) = studies.number(&folder, notes)?;
+    if let (true, Some(identity)) = (is_new, &studies.get(number).identity) {
+        let file = folder.join(record::study::STUDY_FILE);
+        gathered
+            .trials
+            .declare(&file, number, &identity.conditions)?;
+        for condition in &identity.conditions {
+            let (id, techniques) = (&condition.id, &condition.techniques);
+            gathered.rankings.declare(id, techniques);
+            let view = techniques.first().map_or(&**id, |only| view_of(id, only));
+            gathered.ratings.declare(view, techniques);
         }
-        let ids: BTreeSet<String> = record::rejections(&results)?.into_keys().collect();
-        self.rejections.insert(results, ids.clone());
-        Ok(ids)
     }
+    Ok(number)
+}
 
+/// The condition that versions of one view share: single images are named `SCENE-LIGHT-TECHNIQUE`.
+fn view_of<'a>(condition: &'a str, technique: &str) -> &'a str {
+    condition
+        .strip_suffix(technique)
+        .and_then(|rest| rest.strip_suffix('-'))
+        .filter(|view| !view.is_empty())
+        .unwrap_or(condition)
+}
+
+/// Adds what a row holds: a choice, ratings of one image, or a ranking.
+fn add(row: &TrialRow, path: &Path, line: u64, gathered: &mut Gathered) -> Result<(), InputError> {
+    let response_time_ms = row.response_time_ms.map(|time| time as f32);
+    let participant = row.participant_id.as_bytes();
+    if row.response.is_some() {
+        return gathered.trials.add(&Observation {
+            participant,
+            condition: row.condition.as_bytes(),
+            first_technique: row.technique_first.as_bytes(),
+            second_technique: row.technique_second.as_bytes(),
+            chosen: row.response.and_then(Response::position),
+            response_time_ms,
+            hypothesis: None,
+            scene: row.scene.as_bytes(),
+            line,
+        });
+    }
+    for rating in items(&row.ratings) {
+        let given = rating.split_once('=').and_then(|(scale, points)| {
+            let points: f32 = points.trim().parse().ok()?;
+            (points.is_finite() && !scale.is_empty()).then_some((scale, points))
+        });
+        let Some((scale, value)) = given else {
+            let message = format!(
+                "column `ratings`: found `{}`, `scale=points` with {LIST_SEPARATOR} between them is needed",
+                shown(rating)
+            );
+            return Err(InputError::line(path, line, message));
+        };
+        gathered.ratings.add(&Judgement {
+            participant,
+            condition: view_of(&row.condition, &row.technique_first).as_bytes(),
+            technique: row.technique_first.as_bytes(),
+            scale: scale.as_bytes(),
+            value,
+            response_time_ms,
+            line,
+        })?;
+    }
+    for (place, technique) in (1_u16..).zip(items(&row.ranking)) {
+        gathered.rankings.add(&Judgement {
+            participant,
+            condition: row.condition.as_bytes(),
+            technique: technique.as_bytes(),
+            scale: b"",
+            value: f32::from(place),
+            response_time_ms,
+            line,
+        })?;
+    }
+    Ok(())
+}
+
+/// The items of a list in one cell; none of an empty cell.
+fn items(cell: &str) -> impl Iterator<Item = &str> {
+    let items = cell.split(LIST_SEPARATOR);
+    items.filter(move |_| !cell.is_empty())
+}
+
+impl LeftOut {
     /// The count of the reason why a row does not count; `None` if it does.
-    fn reason(
-        &mut self,
-        row: &TrialRow,
-        rejected: &BTreeSet<String>,
-        options: Options,
-    ) -> Option<&mut u64> {
-        if !options.include_rejected && rejected.contains(&row.participant_id) {
-            return Some(self.rejected.entry(row.participant_id.clone()).or_default());
-        }
+    fn reason(&mut self, row: &TrialRow, options: Options) -> Option<&mut u64> {
         match row.phase {
             Phase::Practice => Some(&mut self.practice),
             Phase::Catch => Some(&mut self.catch),
             Phase::Main if row.pilot && !options.include_pilot => Some(&mut self.pilot),
             Phase::Main => match row.response {
-                None => Some(&mut self.no_choice),
                 Some(Response::CannotTell) => Some(&mut self.cannot_tell),
-                Some(_) => None,
+                None if row.ratings.is_empty() && row.ranking.is_empty() => {
+                    Some(&mut self.no_answer)
+                }
+                _ => None,
             },
         }
     }
@@ -170,10 +243,7 @@ impl LeftOut {
                 self.pilot,
                 "trials of pilot sessions are left out; --include-pilot takes them in",
             ),
-            (
-                self.no_choice,
-                "trials are ratings or rankings, not choices, and are left out",
-            ),
+            (self.no_answer, "trials hold no answer and are left out"),
             (
                 self.cannot_tell,
                 "trials were answered by \"cannot tell\" and are left out of the choices",

@@ -1,5 +1,5 @@
 //! The plain trial table:
-//! `participant,condition,first_technique,second_technique,chosen[,rt_ms][,hypothesis]`.
+//! `participant,condition,first_technique,second_technique,chosen[,rt_ms][,hypothesis][,scene]`.
 
 use super::csv_file::{CsvFile, Row, shown};
 use super::error::InputError;
@@ -18,14 +18,14 @@ pub const REQUIRED: &[&str] = &[
     "chosen",
 ];
 /// Columns that may be.
-pub const OPTIONAL: &[&str] = &["rt_ms", "hypothesis"];
+pub const OPTIONAL: &[&str] = &["rt_ms", "hypothesis", "scene"];
 
 /// Reads the rows of a file recognised by its header.
 ///
 /// # Errors
 /// [`InputError`] with file and line.
 pub fn read(mut file: CsvFile, trials: &mut Trials) -> Result<Source, InputError> {
-    trials.begin_file(file.path());
+    trials.begin_file(file.path(), 0);
     let at = |name| file.column(name);
     let (Some(participant), Some(condition), Some(first), Some(second), Some(chosen)) = (
         at("participant"),
@@ -34,9 +34,9 @@ pub fn read(mut file: CsvFile, trials: &mut Trials) -> Result<Source, InputError
         at("second_technique"),
         at("chosen"),
     ) else {
-        return Err(super::missing_columns(&file, REQUIRED));
+        return Err(super::layout::missing_columns(&file, REQUIRED));
     };
-    let (rt_ms, hypothesis) = (at("rt_ms"), at("hypothesis"));
+    let (rt_ms, hypothesis, scene) = (at("rt_ms"), at("hypothesis"), at("scene"));
     let mut rows_used = 0;
     while let Some(row) = file.next_row()? {
         trials.add(&Observation {
@@ -44,9 +44,10 @@ pub fn read(mut file: CsvFile, trials: &mut Trials) -> Result<Source, InputError
             condition: row.bytes(condition),
             first_technique: row.bytes(first),
             second_technique: row.bytes(second),
-            chosen: position(&row, chosen)?,
+            chosen: position(&row, chosen, first, second)?,
             response_time_ms: rt_ms.map_or(Ok(None), |at| milliseconds(&row, at))?,
             hypothesis: hypothesis.map(|at| row.text(at)).transpose()?,
+            scene: scene.map_or(&[], |at| row.bytes(at)),
             line: row.line,
         })?;
         rows_used += 1;
@@ -61,23 +62,37 @@ pub fn read(mut file: CsvFile, trials: &mut Trials) -> Result<Source, InputError
 }
 
 /// `first`, `second`, or empty for a trial without an answer.
-pub fn position(row: &Row<'_>, column: usize) -> Result<Option<Position>, InputError> {
+fn position(
+    row: &Row<'_>,
+    column: usize,
+    first: usize,
+    second: usize,
+) -> Result<Option<Position>, InputError> {
     match row.bytes(column) {
         b"first" => Ok(Some(Position::First)),
         b"second" => Ok(Some(Position::Second)),
         b"" => Ok(None),
-        other => Err(row.error(
-            column,
-            &format!(
-                "found `{}`, allowed is `first`, `second`, or nothing for a missing answer",
-                shown(&String::from_utf8_lossy(other))
-            ),
-        )),
+        other => {
+            let meant = if other == row.bytes(first) {
+                "; that technique was shown first here, so `first` is meant"
+            } else if other == row.bytes(second) {
+                "; that technique was shown second here, so `second` is meant"
+            } else {
+                ""
+            };
+            Err(row.error(
+                column,
+                &format!(
+                    "found `{}`, allowed is `first`, `second`, or nothing for a missing answer{meant}",
+                    shown(&String::from_utf8_lossy(other))
+                ),
+            ))
+        }
     }
 }
 
 /// A time in milliseconds, or nothing.
-pub fn milliseconds(row: &Row<'_>, column: usize) -> Result<Option<f32>, InputError> {
+fn milliseconds(row: &Row<'_>, column: usize) -> Result<Option<f32>, InputError> {
     const ALLOWED: &str = "a time in milliseconds, 0 or more, or nothing is needed";
     if row.bytes(column).is_empty() {
         return Ok(None);

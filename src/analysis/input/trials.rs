@@ -1,10 +1,15 @@
 //! Single answers gathered from any number of files: one pair of techniques a condition, one
 //! answer a participant and condition.
 
-use std::path::{Path, PathBuf};
+use std::collections::HashMap;
+use std::path::Path;
 
+use super::csv_file::shown;
 use super::error::InputError;
-use super::names::Names;
+use super::files::{Files, Place};
+use super::lookalikes;
+use super::names::{Names, only_used};
+use super::rules::{Rules, Sieve};
 use crate::analysis::dataset::{Answer, ConditionData, Dataset, Order, OrderCounts};
 use crate::protocol::{Condition, Position};
 
@@ -17,6 +22,8 @@ pub struct Observation<'a> {
     pub chosen: Option<Position>,
     pub response_time_ms: Option<f32>,
     pub hypothesis: Option<&'a str>,
+    /// Empty where the input does not say.
+    pub scene: &'a [u8],
     pub line: u64,
 }
 
@@ -29,8 +36,8 @@ pub struct Trials {
     conditions: Vec<Pair>,
     answers: Vec<Answer>,
     /// File and line of every answer.
-    places: Vec<(u32, u32)>,
-    files: Vec<PathBuf>,
+    places: Vec<Place>,
+    files: Files,
     /// Conditions in the study's order, where a results folder says it.
     study_order: Vec<String>,
 }
@@ -40,8 +47,9 @@ struct Pair {
     a: u32,
     b: u32,
     hypothesis: Option<String>,
+    scene: Option<String>,
     counts: OrderCounts,
-    place: (u32, u32),
+    place: Place,
 }
 
 impl Trials {
@@ -50,9 +58,9 @@ impl Trials {
         self.answers.is_empty()
     }
 
-    /// Announces the file that the next trials come from.
-    pub fn begin_file(&mut self, path: &Path) {
-        self.files.push(path.to_owned());
+    /// Announces the file that the next trials come from, and the number of the study it is of.
+    pub fn begin_file(&mut self, path: &Path, origin: u32) {
+        self.files.begin(path, origin);
     }
 
     /// Fixes base orders from the study a results folder belongs to. Without, a condition's base
@@ -60,18 +68,23 @@ impl Trials {
     ///
     /// # Errors
     /// [`InputError`] if another folder had another pair for one of the conditions.
-    pub fn declare(&mut self, path: &Path, conditions: &[Condition]) -> Result<(), InputError> {
-        self.begin_file(path);
+    pub fn declare(
+        &mut self,
+        path: &Path,
+        origin: u32,
+        conditions: &[Condition],
+    ) -> Result<(), InputError> {
+        self.begin_file(path, origin);
+        let place = self.files.here(0);
         for condition in conditions {
             // Only a choice between two is a condition here.
             let [first, second] = &condition.techniques[..] else {
                 continue;
             };
-            let place = (self.file_number(), 0);
             let names = (
-                self.techniques.number(first.as_bytes()),
-                self.techniques.number(second.as_bytes()),
-                self.condition_ids.number(condition.id.as_bytes()),
+                self.techniques.number(first.as_bytes(), place),
+                self.techniques.number(second.as_bytes(), place),
+                self.condition_ids.number(condition.id.as_bytes(), place),
             );
             let (Some(a), Some(b), Some(id)) = names else {
                 continue;
@@ -87,7 +100,7 @@ impl Trials {
                             second,
                             self.techniques.name(pair.a),
                             self.techniques.name(pair.b),
-                            self.place(pair.place),
+                            self.files.shown(pair.place),
                         ),
                     ));
                 }
@@ -98,6 +111,7 @@ impl Trials {
                         b,
                         hypothesis: Some(condition.hypothesis.clone())
                             .filter(|hypothesis| !hypothesis.is_empty()),
+                        scene: Some(condition.scene.clone()).filter(|scene| !scene.is_empty()),
                         counts: OrderCounts::default(),
                         place,
                     });
@@ -112,65 +126,32 @@ impl Trials {
     ///
     /// # Errors
     /// [`InputError`] for an empty name, a name that is not UTF-8, one technique on both sides, or
-    /// techniques other than the condition's.
+    /// techniques or a scene other than the condition's.
     pub fn add(&mut self, trial: &Observation<'_>) -> Result<(), InputError> {
-        let path = self.files.last().map_or(Path::new(""), PathBuf::as_path);
-        let error = |message: String| InputError::line(path, trial.line, message);
-        let fields = [
-            ("participant", trial.participant),
-            ("condition", trial.condition),
-            ("first technique", trial.first_technique),
-            ("second technique", trial.second_technique),
-        ];
-        if let Some((name, _)) = fields.iter().find(|(_, bytes)| bytes.is_empty()) {
-            return Err(error(format!("the {name} is empty")));
-        }
+        let place = self.files.here(trial.line);
         let numbers = (
-            self.participants.number(trial.participant),
-            self.condition_ids.number(trial.condition),
-            self.techniques.number(trial.first_technique),
-            self.techniques.number(trial.second_technique),
+            self.participants.number(trial.participant, place),
+            self.condition_ids.number(trial.condition, place),
         );
-        let (Some(participant), Some(condition), Some(first), Some(second)) = numbers else {
-            return Err(error(
-                "a name is not UTF-8 text; save the file as UTF-8 and try again".to_owned(),
-            ));
+        let (Some(participant), Some(condition)) = numbers else {
+            return Err(self.name_error(trial));
         };
-        let line = u32::try_from(trial.line).unwrap_or(u32::MAX);
-        let place = (self.file_number(), line);
         if condition as usize == self.conditions.len() {
-            self.conditions.push(Pair {
-                a: first,
-                b: second,
-                hypothesis: trial.hypothesis.map(str::to_owned),
-                counts: OrderCounts::default(),
-                place,
-            });
+            let pair = self.new_pair(trial, place)?;
+            self.conditions.push(pair);
         }
-        let pair = &self.conditions[condition as usize];
-        let order = if first == second {
-            return Err(error(format!(
-                "both techniques are `{}`; a pair needs two",
-                self.techniques.name(first)
-            )));
-        } else if (first, second) == (pair.a, pair.b) {
-            Order::AThenB
-        } else if (second, first) == (pair.a, pair.b) {
-            Order::BThenA
-        } else {
-            return Err(error(format!(
-                "condition {} shows {} and {} here, but {} and {} in {}; one condition is one pair, give each pair an id of its own",
-                self.condition_ids.name(condition),
-                self.techniques.name(first),
-                self.techniques.name(second),
-                self.techniques.name(pair.a),
-                self.techniques.name(pair.b),
-                self.place(pair.place),
-            )));
-        };
-        self.conditions[condition as usize]
-            .counts
-            .add(order, trial.chosen);
+        let order = self.order(trial, condition)?;
+        if trial.participant.is_empty() || trial.condition.is_empty() {
+            return Err(self.name_error(trial));
+        }
+        let pair = &mut self.conditions[condition as usize];
+        if !trial.scene.is_empty() {
+            match &pair.scene {
+                Some(scene) if scene.as_bytes() == trial.scene => {}
+                Some(_) => return Err(self.scene_error(trial, condition)),
+                None => pair.scene = Some(String::from_utf8_lossy(trial.scene).into_owned()),
+            }
+        }
         self.answers.push(Answer {
             participant,
             condition,
@@ -182,20 +163,118 @@ impl Trials {
         Ok(())
     }
 
-    /// The dataset: conditions in the study's order, or by id where no study says.
+    /// The pair of a condition met for the first time.
+    fn new_pair(&mut self, trial: &Observation<'_>, place: Place) -> Result<Pair, InputError> {
+        let numbers = (
+            self.techniques.number(trial.first_technique, place),
+            self.techniques.number(trial.second_technique, place),
+        );
+        let (Some(a), Some(b)) = numbers else {
+            return Err(self.name_error(trial));
+        };
+        Ok(Pair {
+            a,
+            b,
+            hypothesis: trial.hypothesis.map(str::to_owned),
+            scene: None,
+            counts: OrderCounts::default(),
+            place,
+        })
+    }
+
+    /// Which of the condition's techniques stood first.
+    fn order(&self, trial: &Observation<'_>, condition: u32) -> Result<Order, InputError> {
+        let pair = &self.conditions[condition as usize];
+        let name = |number| self.techniques.name(number).as_bytes();
+        let (first, second) = (trial.first_technique, trial.second_technique);
+        if first != second && !first.is_empty() && !second.is_empty() {
+            if first == name(pair.a) && second == name(pair.b) {
+                return Ok(Order::AThenB);
+            }
+            if first == name(pair.b) && second == name(pair.a) {
+                return Ok(Order::BThenA);
+            }
+        }
+        let here = (text(first), text(second));
+        let (Some(first), Some(second)) = here else {
+            return Err(self.name_error(trial));
+        };
+        if first.is_empty() || second.is_empty() {
+            return Err(self.name_error(trial));
+        }
+        Err(self.error(
+            trial,
+            if first == second {
+                format!("both techniques are `{first}`; a pair needs two")
+            } else {
+                format!(
+                    "condition {} shows {first} and {second} here, but {} and {} in {}; one condition is one pair, give each pair an id of its own",
+                    self.condition_ids.name(condition),
+                    self.techniques.name(pair.a),
+                    self.techniques.name(pair.b),
+                    self.files.shown(pair.place),
+                )
+            },
+        ))
+    }
+
+    fn error(&self, trial: &Observation<'_>, message: String) -> InputError {
+        InputError::line(self.files.current(), trial.line, message)
+    }
+
+    /// A name that is empty or no text.
+    fn name_error(&self, trial: &Observation<'_>) -> InputError {
+        let fields = [
+            ("participant", trial.participant),
+            ("condition", trial.condition),
+            ("first technique", trial.first_technique),
+            ("second technique", trial.second_technique),
+        ];
+        self.error(trial, name_error(&fields))
+    }
+
+    fn scene_error(&self, trial: &Observation<'_>, condition: u32) -> InputError {
+        let pair = &self.conditions[condition as usize];
+        self.error(
+            trial,
+            format!(
+                "condition {} shows the scene {} here, but {} from {} on; one condition is one pair on one scene",
+                self.condition_ids.name(condition),
+                String::from_utf8_lossy(trial.scene).escape_debug(),
+                pair.scene.as_deref().unwrap_or_default(),
+                self.files.shown(pair.place),
+            ),
+        )
+    }
+
+    /// The dataset without what the rules leave out: conditions in the study's order, or by id
+    /// where no study says. `rules` has the rules of every origin.
     ///
     /// # Errors
     /// [`InputError`] naming both places where a participant answered a condition twice.
-    pub fn finish(mut self) -> Result<Dataset, InputError> {
+    pub fn finish(mut self, rules: &[Rules]) -> Result<Dataset, InputError> {
         self.refuse_duplicates()?;
+        let mut data = Dataset::default();
+        for (kind, names) in [
+            ("participant", &self.participants),
+            ("condition", &self.condition_ids),
+            ("technique", &self.techniques),
+        ] {
+            data.notes
+                .extend(lookalikes::notes(kind, names, &self.files));
+        }
+        data.participants = self.sift(rules, &mut data);
+        for answer in &self.answers {
+            self.conditions[answer.condition as usize]
+                .counts
+                .add(answer.order, answer.chosen);
+        }
         let ids = self.condition_ids.into_names();
         let mut order: Vec<usize> = (0..self.conditions.len()).collect();
-        let rank = |id: &String| {
-            self.study_order
-                .iter()
-                .position(|known| known == id)
-                .unwrap_or(usize::MAX)
-        };
+        let rank: HashMap<&String, usize> = (self.study_order.iter().enumerate())
+            .map(|(rank, id)| (id, rank))
+            .collect();
+        let rank = |id: &String| rank.get(id).copied().unwrap_or(usize::MAX);
         order.sort_by_cached_key(|&i| (rank(&ids[i]), ids[i].clone()));
         let mut new_number = vec![0_u32; order.len()];
         for (new, &old) in (0_u32..).zip(&order) {
@@ -204,7 +283,7 @@ impl Trials {
         for answer in &mut self.answers {
             answer.condition = new_number[answer.condition as usize];
         }
-        let conditions = order
+        data.conditions = order
             .iter()
             .map(|&i| {
                 let pair = &self.conditions[i];
@@ -213,18 +292,39 @@ impl Trials {
                     technique_a: self.techniques.name(pair.a).to_owned(),
                     technique_b: self.techniques.name(pair.b).to_owned(),
                     hypothesis: pair.hypothesis.clone(),
+                    scene: pair.scene.clone(),
                     votes: pair.counts.votes(),
                     orders: Some(pair.counts),
                     ..ConditionData::default()
                 }
             })
             .collect();
-        Ok(Dataset {
-            conditions,
-            participants: self.participants.into_names(),
-            answers: self.answers,
-            ..Dataset::default()
-        })
+        data.answers = self.answers;
+        Ok(data)
+    }
+
+    /// Leaves out what the rules leave out, and whoever then has no trial. Gives the participants.
+    fn sift(&mut self, rules: &[Rules], data: &mut Dataset) -> Vec<String> {
+        let participants = std::mem::take(&mut self.participants).into_names();
+        let Some(mut sieve) = Sieve::new(rules, &self.files, &participants) else {
+            return participants;
+        };
+        let mut used = vec![false; participants.len()];
+        let mut places = self.places.iter();
+        self.answers.retain(|answer| {
+            let place = places.next().copied().unwrap_or_default();
+            let kept = sieve.keeps(place, answer.participant, answer.response_time_ms, 1);
+            used[answer.participant as usize] |= kept;
+            kept
+        });
+        let (exclusions, note) = sieve.finish(&participants);
+        data.exclusions = exclusions;
+        data.notes.extend(note);
+        let (participants, numbers) = only_used(participants, &used);
+        for answer in &mut self.answers {
+            answer.participant = numbers[answer.participant as usize];
+        }
+        participants
     }
 
     fn refuse_duplicates(&self) -> Result<(), InputError> {
@@ -246,30 +346,37 @@ impl Trials {
         };
         let (earlier, later) = (pair[0].1 as usize, pair[1].1 as usize);
         let answer = &self.answers[later];
-        let (file, line) = self.places[later];
+        let place = self.places[later];
         Err(InputError::line(
-            &self.files[file as usize],
-            u64::from(line),
+            self.files.path(place),
+            u64::from(place.1),
             format!(
                 "participant {} answers condition {} a second time; the first is {}. Remove one of them",
                 self.participants.name(answer.participant),
                 self.condition_ids.name(answer.condition),
-                self.place(self.places[earlier]),
+                self.files.shown(self.places[earlier]),
             ),
         ))
     }
+}
 
-    fn file_number(&self) -> u32 {
-        u32::try_from(self.files.len().saturating_sub(1)).unwrap_or(u32::MAX)
-    }
+/// A name as it stands in a message; `None` where it is not UTF-8.
+fn text(name: &[u8]) -> Option<String> {
+    std::str::from_utf8(name).ok().map(shown)
+}
 
-    /// `file:line`, or the file alone for line 0.
-    fn place(&self, (file, line): (u32, u32)) -> String {
-        let path = self.files[file as usize].display();
-        if line == 0 {
-            path.to_string()
-        } else {
-            format!("{path}:{line}")
+/// What is wrong with the first of the names that is empty or no text.
+pub fn name_error(fields: &[(&str, &[u8])]) -> String {
+    for (field, name) in fields {
+        if name.is_empty() {
+            return format!("the {field} is empty");
+        }
+        if std::str::from_utf8(name).is_err() {
+            return format!(
+                "the {field} `{}` is not UTF-8 text; save the file as UTF-8 and try again",
+                shown(&String::from_utf8_lossy(name))
+            );
         }
     }
+    "too many different names".to_owned()
 }

@@ -1,3 +1,7 @@
+mod ratings_and_ranks;
+mod robustness;
+mod rules;
+
 use super::*;
 use crate::analysis::dataset::Votes;
 use crate::protocol::Phase;
@@ -130,7 +134,11 @@ fn bad_input_is_named_with_its_place() {
         ),
         (
             vec![c("c,x,y,1,2\n"), t("P,c,x,y,first,\n")],
-            vec!["1.csv", "cannot be analysed together"],
+            vec![
+                "1.csv",
+                "counts and single choices",
+                "cannot be analysed together",
+            ],
         ),
         (
             vec!["participant,condition,first_technique,second_technique,choice\n".into()],
@@ -148,7 +156,7 @@ fn bad_input_is_named_with_its_place() {
         ),
         (
             vec!["participant,condition,technique,rank\n".into()],
-            vec!["rank table"],
+            vec!["no trial to analyse"],
         ),
         (vec![String::new()], vec!["empty"]),
     ] {
