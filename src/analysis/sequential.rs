@@ -246,14 +246,23 @@ fn runs(data: &Dataset, settings: &Settings) -> Vec<Run> {
     };
     let mut runs = vec![ordered; data.conditions.len()];
     let ln_threshold = -settings.alpha.get().ln();
+    in_order(data, |condition, for_b| {
+        let run = &mut runs[condition];
+        run.monitor.vote(for_b);
+        if run.reached.is_none() && run.monitor.ln_e >= ln_threshold {
+            run.reached = Some(run.monitor.votes.total());
+        }
+    });
+    runs
+}
+
+/// Every vote as (condition, for b): participants in order of appearance, each one's answers in
+/// theirs.
+fn in_order(data: &Dataset, mut vote: impl FnMut(usize, bool)) {
     let mut feed = |at: usize| {
         let answer = &data.answers[at];
         if let Some(for_b) = answer.chose_b() {
-            let run = &mut runs[answer.condition as usize];
-            run.monitor.vote(for_b);
-            if run.reached.is_none() && run.monitor.ln_e >= ln_threshold {
-                run.reached = Some(run.monitor.votes.total());
-            }
+            vote(answer.condition as usize, for_b);
         }
     };
     let participant = |at: &usize| data.answers[*at].participant;
@@ -264,7 +273,26 @@ fn runs(data: &Dataset, settings: &Settings) -> Vec<Run> {
         order.sort_by_key(participant);
         order.into_iter().for_each(&mut feed);
     }
-    runs
+}
+
+/// log₁₀ e of the first conditions after every vote, 0 before the first; `None` where the order of
+/// the votes is not known.
+#[must_use]
+pub fn paths(data: &Dataset, conditions: usize) -> Option<Vec<Vec<f64>>> {
+    if !data.has_answers() {
+        return None;
+    }
+    let shown = conditions.min(data.conditions.len());
+    let mut monitors = vec![Monitor::default(); shown];
+    let mut paths = vec![vec![0.0]; shown];
+    in_order(data, |condition, for_b| {
+        if let (Some(monitor), Some(path)) = (monitors.get_mut(condition), paths.get_mut(condition))
+        {
+            monitor.vote(for_b);
+            path.push(monitor.ln_e_value() * std::f64::consts::LOG10_E);
+        }
+    });
+    Some(paths)
 }
 
 fn section(context: &Context<'_>) -> Option<Section> {

@@ -34,8 +34,13 @@ impl Settings {
     /// As the study's protocol declares them, where the input is its results folder; else the
     /// defaults.
     #[must_use]
-    pub fn declared(_data: &Dataset) -> Self {
-        Self::default()
+    pub fn declared(data: &Dataset) -> Self {
+        let declared = data.declared.as_ref();
+        Self {
+            alpha: declared.and_then(|it| it.alpha).unwrap_or_default(),
+            family: declared.map_or_else(Vec::new, |it| it.family.clone()),
+            ..Self::default()
+        }
     }
 
     /// Whether a condition belongs to the declared family.

@@ -61,6 +61,12 @@ pub struct AnalyseArgs {
     /// Count rejected participants too (see `greyfield participants`).
     #[arg(long)]
     include_rejected: bool,
+    /// Leave out trials answered faster than this; a results folder's protocol may say more.
+    #[arg(long, value_name = "MS")]
+    minimum_response_ms: Option<f64>,
+    /// Leave out trials answered slower than this.
+    #[arg(long, value_name = "MS")]
+    maximum_response_ms: Option<f64>,
     /// Say on standard error how long each step took.
     #[arg(long)]
     timings: bool,
@@ -83,7 +89,8 @@ pub fn run(args: &AnalyseArgs, verbosity: Verbosity) -> Result<(), Failure> {
     let options = Options {
         include_pilot: args.include_pilot,
         include_rejected: args.include_rejected,
-        ..Options::default()
+        minimum_response_ms: args.minimum_response_ms,
+        maximum_response_ms: args.maximum_response_ms,
     };
     let start = Instant::now();
     let data = input::read(&args.inputs, options).map_err(Failure::bad_input)?;

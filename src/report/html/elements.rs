@@ -56,7 +56,7 @@ pub fn table(page: &mut String, block: &TableBlock) {
         for (i, (cells, column)) in columns.iter().zip(&table.columns).enumerate() {
             let cell = escape(&cells[row]);
             let _ = match (i, column.style) {
-                (0, _) => write!(page, "<th scope=\"row\">{cell}</th>"),
+                (0, _) => write!(page, "<th scope=\"row\"{}>{cell}</th>", class_of(column)),
                 (_, Style::Code) => write!(page, "<td><code>{cell}</code></td>"),
                 _ => write!(page, "<td{}>{cell}</td>", class_of(column)),
             };
@@ -71,7 +71,8 @@ pub fn table(page: &mut String, block: &TableBlock) {
 
 fn class_of(column: &Column) -> &'static str {
     match column.style {
-        Style::Text | Style::Code => "",
+        Style::Text => " class=\"t\"",
+        Style::Code => "",
         _ => " class=\"n\"",
     }
 }

@@ -36,6 +36,14 @@ impl<'a> Row<'a> {
         }
     }
 
+    /// A name or a number, as it is.
+    pub fn label(self, key: &str) -> String {
+        match self.cell(key) {
+            Some(Cell::Count(count)) => count.to_string(),
+            _ => self.text(key).to_owned(),
+        }
+    }
+
     /// A number or a count.
     pub fn number(self, key: &str) -> Option<f64> {
         match self.cell(key)? {

@@ -9,6 +9,7 @@ mod ranks;
 mod ratings;
 mod response_times;
 mod scale;
+mod sequential;
 mod shares;
 #[cfg(test)]
 mod tests;
@@ -38,6 +39,7 @@ pub const FIGURES: &[StudyFigure] = &[
     forest::FIGURE,
     positions::FIGURE,
     orders::FIGURE,
+    sequential::FIGURE,
     response_times::FIGURE,
     scale::FIGURE,
     ratings::FIGURE,

@@ -29,7 +29,8 @@ fn draw(analysis: &Analysis) -> Option<Drawing> {
     if shown.is_empty() {
         return None;
     }
-    let components = distinct(shown.iter().map(|row| row.text("component")));
+    let names: Vec<String> = shown.iter().map(|row| row.label("component")).collect();
+    let components = distinct(names.iter().map(String::as_str));
     let several = components.len() > 1;
     let heads = if several { components.len() } else { 0 };
     let bottom = TOP + ROW * shown.len() as f64 + HEAD * heads as f64 + 10.0;

@@ -19,7 +19,7 @@ const REFRESH: Duration = Duration::from_secs(1);
 
 /// Why looking is not free. The numbers are those of repeated tests on normal data: P. Armitage,
 /// C. K. McPherson, B. C. Rowe (1969), JRSS A 132(2), 235–244, table 2.
-const PEEKING: &str = "The p-values below hold at the number of participants that was planned. Whoever looks again and again, and stops when one of them is small, finds differences that are not there: with two looks at the 5 % level in 8 % of the studies, with five in 14 %, with ten in 19 %. The anytime-valid p and its interval (section “Sequential test”) may be looked at after every answer, and a study may stop on them.";
+const PEEKING: &str = "The p-values below hold at the number of participants that was planned. Whoever looks again and again, and stops when one of them is small, finds differences that are not there: with two looks at the 5 % level in 8 % of the studies, with five in 14 %, with ten in 19 %. The anytime-valid p and its interval (section “Anytime-valid test”) may be looked at after every answer, and a study may stop on them.";
 
 /// What the experimenter sees of the results.
 pub struct Results {
