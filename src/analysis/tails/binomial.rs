@@ -23,15 +23,6 @@ impl Binomial {
             .then_some(Self { n, p, q: 1.0 - p })
     }
 
-    /// With p = 1 / (1 + e^−logit), precise at both ends.
-    pub(super) fn from_logit(n: u32, logit: f64) -> Self {
-        Self {
-            n,
-            p: 1.0 / (1.0 + (-logit).exp()),
-            q: 1.0 / (1.0 + logit.exp()),
-        }
-    }
-
     /// Probability of a success.
     #[must_use]
     pub fn p(&self) -> f64 {
