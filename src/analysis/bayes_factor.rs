@@ -149,7 +149,9 @@ fn findings(voted: &[&ConditionData]) -> Vec<String> {
         plural(voted.len(), "condition"),
         voted.len() - for_preference - for_even,
     )];
-    let strongest = (voted.iter().zip(&uniform)).max_by(|x, y| x.1.total_cmp(y.1));
+    let strongest = (voted.iter().zip(&uniform))
+        .rev()
+        .max_by(|x, y| x.1.total_cmp(y.1));
     if let Some((condition, bf)) = strongest {
         findings.push(format!(
             "The largest factor is that of {}: {} ({}).",

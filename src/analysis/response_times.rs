@@ -6,10 +6,12 @@ use super::dataset::{Answer, Dataset};
 use super::settings::Settings;
 use super::statistic::{About, Context, Section, SectionTable, StudyStatistic};
 use super::table::{Cell, Column, Group, Interval, Status, Style, Table, Undefined};
-use super::tails::{Alpha, Probability, chi_square_upper, student_t_critical, student_t_upper};
+use super::tails::{Alpha, Probability, chi_square_upper, student_t_critical};
+use position::PositionTest;
 use summary::{Moments, quantiles};
 
 mod friedman;
+mod position;
 mod summary;
 
 /// The declaration.
@@ -285,77 +287,6 @@ fn count(n: usize) -> Cell {
     Cell::Count(u32::try_from(n).unwrap_or(u32::MAX))
 }
 
-/// Student's t of each participant's mean ln t choosing first, minus choosing second.
-struct PositionTest {
-    /// The participants' means: choosing first, choosing second.
-    of_position: [Moments; 2],
-    differences: Moments,
-    t: Result<f64, Undefined>,
-    p: Result<Probability, Undefined>,
-    /// Of the time choosing first by that choosing second.
-    ratio_interval: Result<Interval, Undefined>,
-}
-
-impl PositionTest {
-    fn of(data: &Dataset, alpha: Alpha) -> Self {
-        let participants = data.answers.iter().map(|a| a.participant).max();
-        let participants = participants.map_or(0, |last| last as usize + 1);
-        let mut own = vec![[(0_u32, 0.0_f64); 2]; participants];
-        for answer in &data.answers {
-            if let (Some(time), Some(position)) = (time(answer), answer.chosen) {
-                let (n, sum) = &mut own[answer.participant as usize][position.place()];
-                *n += 1;
-                *sum += f64::from(time).ln();
-            }
-        }
-        let mean = |(n, sum): (u32, f64)| (n > 0).then(|| sum / f64::from(n));
-        let of_position = [0, 1].map(|at| own.iter().filter_map(|own| mean(own[at])).collect());
-        let differences: Moments = (own.iter())
-            .filter_map(|own| Some(mean(own[0])? - mean(own[1])?))
-            .collect();
-        let t = match differences.standard_error() {
-            None => Err(ONE_PARTICIPANT),
-            Some(error) if error > 0.0 => Ok(differences.mean() / error),
-            Some(_) => Err(NO_SPREAD),
-        };
-        Self {
-            of_position,
-            differences,
-            t,
-            p: t.map(|t| student_t_upper(t.abs(), differences.n() - 1.0).times(2.0)),
-            ratio_interval: geometric_interval(&differences, alpha, ONE_PARTICIPANT),
-        }
-    }
-
-    fn table(&self) -> Table {
-        let n = self.differences.n();
-        let ratio = if n < 1.0 {
-            Err(ONE_PARTICIPANT)
-        } else {
-            Ok(self.differences.mean().exp())
-        };
-        let tests = |key, title, style| Column::new(key, title, style, Group::Tests);
-        Table {
-            columns: vec![
-                tests("participants", "participants", Style::Count),
-                tests("ratio", "ratio", Style::Decimals(3)),
-                tests("ratio_ci", "interval", Style::Interval(3)),
-                tests("t", "t", Style::Decimals(3)),
-                tests("df", "df", Style::Count),
-                tests("p_t", "p", Style::P),
-            ],
-            rows: vec![vec![
-                count(n as usize),
-                Cell::or_undefined(ratio, Cell::Number),
-                Cell::or_undefined(self.ratio_interval, Cell::Interval),
-                Cell::or_undefined(self.t, Cell::Number),
-                Cell::or_undefined(self.t, |_| count(n as usize - 1)),
-                Cell::or_undefined(self.p, Cell::Probability),
-            ]],
-        }
-    }
-}
-
 /// Friedman's test of the conditions, participants as blocks.
 struct ConditionTest {
     outcome: Result<friedman::Friedman, Undefined>,
@@ -404,7 +335,7 @@ fn findings(
     let mut findings = vec![counts.sentence()];
     findings.push(match (position.t, position.p, position.ratio_interval) {
         (Ok(t), Ok(p), Ok(interval)) => format!(
-            "Choosing the first image took {:.2} times as long as choosing the second ({}\u{a0}% interval {:.2} to {:.2}; geometric means within {}, t({}) = {t:.3}, p {}).",
+            "Choosing the first image took {:.3} times as long as choosing the second ({}\u{a0}% interval {:.3} to {:.3}; geometric means within {}, t({}) = {t:.3}, p {}).",
             position.differences.mean().exp(),
             settings.alpha.confidence_percent(),
             interval.low,

@@ -2,12 +2,16 @@
 //! votes of a condition, against the house's claim that they are even.
 
 use super::conclusion::{listed, plural};
-use super::dataset::{Dataset, Votes};
+use super::dataset::Dataset;
 use super::holm;
 use super::settings::Settings;
 use super::statistic::{About, AnswerStatistic, Context, Section, SectionTable, StudyStatistic};
-use super::table::{Cell, Column, Group, Interval, Status, Style, Table, Undefined};
-use super::tails::{Alpha, Binomial, Probability};
+use super::table::{Cell, Column, Group, Status, Style, Table, Undefined};
+use super::tails::Probability;
+
+mod monitor;
+
+pub use monitor::{Monitor, confidence_sequence, ln_e_value};
 
 const ABOUT: About = About {
     id: "sequential",
@@ -48,153 +52,6 @@ const NEEDS_ORDER: Undefined =
 const NOT_REACHED: Undefined = Undefined::degenerate("alpha was not reached at any answer");
 const OUTSIDE: Undefined = Undefined::not_available("not of the declared family");
 
-/// The test of one condition, fed vote by vote.
-///
-/// The wealth e of a gambler who starts with 1 and bets on every vote by the uniform prior's
-/// prediction, (b + 1)/(n + 2) for b. It is a martingale under an even split, so that by Ville's
-/// inequality it ever reaches 1/alpha with probability at most alpha. It equals the Bayes factor
-/// with a uniform prior.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Monitor {
-    votes: Votes,
-    ln_e: f64,
-    /// The largest so far, e = 1 before the first vote included, and the votes it was reached at.
-    ln_largest: f64,
-    at_largest: Votes,
-}
-
-impl Monitor {
-    /// One vote more.
-    pub fn vote(&mut self, for_b: bool) {
-        let Votes { a, b } = self.votes;
-        let (side, votes) = if for_b {
-            (
-                b,
-                Votes {
-                    a,
-                    b: b.saturating_add(1),
-                },
-            )
-        } else {
-            (
-                a,
-                Votes {
-                    a: a.saturating_add(1),
-                    b,
-                },
-            )
-        };
-        let n = f64::from(a) + f64::from(b);
-        self.ln_e += (2.0 * (f64::from(side) + 1.0) / (n + 2.0)).ln();
-        self.votes = votes;
-        if self.ln_e > self.ln_largest {
-            self.ln_largest = self.ln_e;
-            self.at_largest = votes;
-        }
-    }
-
-    /// The votes so far.
-    #[must_use]
-    pub fn votes(&self) -> Votes {
-        self.votes
-    }
-
-    /// Number of votes at which e was largest.
-    #[must_use]
-    pub fn largest_at(&self) -> u32 {
-        self.at_largest.total()
-    }
-
-    /// ln e now. From the votes, not the sum of the steps: a million of them round.
-    #[must_use]
-    pub fn ln_e_value(&self) -> f64 {
-        ln_e_value(self.votes)
-    }
-
-    /// ln of the largest e so far, at least 0.
-    #[must_use]
-    pub fn ln_largest_e_value(&self) -> f64 {
-        ln_e_value(self.at_largest).max(0.0)
-    }
-
-    /// The anytime-valid p: may be read after every vote, and never rises.
-    #[must_use]
-    pub fn p(&self) -> Probability {
-        Probability::from_ln(-self.ln_largest_e_value())
-    }
-
-    /// The confidence sequence at this vote.
-    #[must_use]
-    pub fn interval(&self, alpha: Alpha) -> Interval {
-        confidence_sequence(self.votes, alpha)
-    }
-}
-
-/// ln e of a condition's votes against an even split, whatever their order.
-#[must_use]
-pub fn ln_e_value(votes: Votes) -> f64 {
-    super::bayes_factor::ln_bayes_factor(votes, 1.0)
-}
-
-/// The shares of b that a gambler with these votes has not won 1/alpha against: holds the true
-/// share at every number of votes at once, with probability at least 1 − alpha.
-#[must_use]
-pub fn confidence_sequence(votes: Votes, alpha: Alpha) -> Interval {
-    let Votes { a, b } = votes;
-    Interval {
-        low: lower_end(b, a, alpha).0,
-        high: lower_end(a, b, alpha).1,
-    }
-}
-
-/// The lower end of the share of `k` against `others`, and 1 minus it, each to full precision.
-///
-/// With C(n, k) B(k + 1, n − k + 1) = 1/(n + 1), e(p) < 1/alpha is P(X = k) > alpha/(n + 1) for
-/// X ~ Bin(n, p). Its logarithm is concave in the logit of p, so that Newton, bracketed, comes up to
-/// the root from below.
-fn lower_end(k: u32, others: u32, alpha: Alpha) -> (f64, f64) {
-    if k == 0 {
-        return (0.0, 1.0);
-    }
-    let n = k.saturating_add(others);
-    let target = alpha.get().ln() - (f64::from(n) + 1.0).ln();
-    if others == 0 {
-        let ln_p = target / f64::from(n);
-        return (ln_p.exp(), -ln_p.exp_m1());
-    }
-    let share = f64::from(k) / f64::from(n);
-    let most = (f64::from(k) / f64::from(others)).ln();
-    let (mut low, mut high) = (-800.0_f64, most);
-    let mut logit = most
-        - (2.0 * -target / (f64::from(n) * share * (1.0 - share)))
-            .sqrt()
-            .min(700.0);
-    for _ in 0..200 {
-        let x = Binomial::from_logit(n, logit);
-        let excess = x.ln_pmf(k) - target;
-        if excess < 0.0 {
-            low = logit;
-        } else {
-            high = logit;
-        }
-        // d ln P(X = k) / d logit = k − n p.
-        let newton = logit - excess / (f64::from(k) - f64::from(n) * x.p());
-        // NaN (no slope) is outside too.
-        let next = if newton > low && newton < high {
-            newton
-        } else {
-            f64::midpoint(low, high)
-        };
-        let step = (next - logit).abs();
-        logit = next;
-        if step <= 1e-15 * logit.abs().max(1.0) {
-            break;
-        }
-    }
-    let x = Binomial::from_logit(n, logit);
-    (x.p(), x.q())
-}
-
 /// One condition's votes, looked at after each of them.
 #[derive(Clone, Copy, Default)]
 struct Run {
@@ -207,7 +64,7 @@ struct Run {
 
 impl Run {
     fn p(&self) -> Result<Probability, Undefined> {
-        match (self.monitor.votes.total(), self.ordered) {
+        match (self.monitor.votes().total(), self.ordered) {
             (0, _) => Err(Undefined::NO_VOTES),
             (_, false) => Err(NEEDS_ORDER),
             (_, true) => Ok(self.monitor.p()),
@@ -216,7 +73,7 @@ impl Run {
 
     /// e, p, interval.
     fn cells(&self, settings: &Settings) -> [Cell; 3] {
-        if self.monitor.votes.total() == 0 {
+        if self.monitor.votes().total() == 0 {
             return [(); 3].map(|()| Cell::Undefined(Undefined::NO_VOTES));
         }
         [
@@ -232,10 +89,7 @@ fn runs(data: &Dataset, settings: &Settings) -> Vec<Run> {
     if !data.has_answers() {
         return (data.conditions.iter())
             .map(|condition| Run {
-                monitor: Monitor {
-                    votes: condition.votes,
-                    ..Monitor::default()
-                },
+                monitor: Monitor::at_once(condition.votes),
                 ..Run::default()
             })
             .collect();
@@ -248,9 +102,9 @@ fn runs(data: &Dataset, settings: &Settings) -> Vec<Run> {
     let ln_threshold = -settings.alpha.get().ln();
     in_order(data, |condition, for_b| {
         let run = &mut runs[condition];
-        run.monitor.vote(for_b);
-        if run.reached.is_none() && run.monitor.ln_e >= ln_threshold {
-            run.reached = Some(run.monitor.votes.total());
+        let larger = run.monitor.vote(for_b);
+        if larger && run.reached.is_none() && run.monitor.ln_e_value() >= ln_threshold {
+            run.reached = Some(run.monitor.votes().total());
         }
     });
     runs
@@ -316,7 +170,7 @@ fn section(context: &Context<'_>) -> Option<Section> {
         findings: match status {
             Status::Degenerate => vec!["No condition has a vote: nothing was tested.".to_owned()],
             Status::Ok => findings(data, settings, &runs, &corrected),
-            _ => vec!["Only counts are known, not the order of the answers: there are no anytime-valid p. The e-values and intervals are those of the last vote: they hold for one look at a number of votes fixed before.".to_owned()],
+            _ => vec!["Only counts are known, not the order of the answers: there are no anytime-valid p. The e-values and intervals are those of the last vote: one look, at a number of votes that was fixed before.".to_owned()],
         },
         tables: vec![SectionTable {
             id: "by_condition",

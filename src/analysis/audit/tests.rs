@@ -184,8 +184,11 @@ fn other_tests_are_recognised_and_wrong_decisions_told() {
     assert_eq!(of(&silent, "published p")[0][3], "degenerate");
 }
 
-/// Participants by conditions, with what each chose and how long it took.
-fn study(people: &[&[(Order, Option<Position>, Option<f32>)]]) -> Dataset {
+/// Order shown, what was chosen, and how long it took.
+type Trial = (Order, Option<Position>, Option<f32>);
+
+/// Participants by conditions.
+fn study(people: &[&[Trial]]) -> Dataset {
     let k = people.iter().map(|row| row.len()).max().unwrap_or(0);
     let mut orders = vec![OrderCounts::default(); k];
     let mut answers = Vec::new();
@@ -285,7 +288,7 @@ fn a_clean_study_has_no_notes() {
     let row = |order, shift: u32| -> Vec<_> {
         (0..8_u32)
             .map(|i| {
-                let position = if (i + shift) % 3 == 0 {
+                let position = if (i + shift).is_multiple_of(3) {
                     Position::First
                 } else {
                     Position::Second

@@ -19,7 +19,7 @@ pub fn checks(data: &Dataset, settings: &Settings) -> Vec<Check> {
     checks
 }
 
-fn ids<'a>(data: &'a Dataset, wanted: impl Fn(usize, &ConditionData) -> bool) -> Vec<&'a str> {
+fn ids(data: &Dataset, wanted: impl Fn(usize, &ConditionData) -> bool) -> Vec<&str> {
     (data.conditions.iter().enumerate())
         .filter(|(i, condition)| wanted(*i, condition))
         .map(|(_, condition)| condition.id.as_str())

@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 
 use crate::analysis::tails::Probability;
 
-/// Give up past so many steps: some tenths of a second.
-const MOST_STEPS: usize = 300_000;
+/// Give up past so many steps: some hundredths of a second.
+const MOST_STEPS: usize = 100_000;
 
 /// P(Q ≥ observed): `columns` are the votes for b by condition, `participants[r]` how many
 /// participants gave b r votes. `None` where there are too many ways.

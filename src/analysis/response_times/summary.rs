@@ -45,9 +45,10 @@ impl Moments {
 }
 
 /// Quantiles by linear interpolation between order statistics, definition 7 of Hyndman and Fan
-/// (1996, The American Statistician 50(4), 361–365): the default of R and of NumPy. Sorts the times.
+/// (1996, The American Statistician 50(4), 361–365): the default of R and of NumPy. Sorts the times, which must be positive.
 pub fn quantiles<const N: usize>(times: &mut [f32], at: [f64; N]) -> Option<[f64; N]> {
-    times.sort_unstable_by(f32::total_cmp);
+    // Positive numbers have the order of their bits.
+    times.sort_unstable_by_key(|time| time.to_bits());
     let last = times.len().checked_sub(1)?;
     Some(at.map(|share| {
         let place = share * last as f64;

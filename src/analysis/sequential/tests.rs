@@ -1,5 +1,7 @@
 use super::*;
-use crate::analysis::dataset::{Answer, ConditionData, Order, OrderCounts};
+use crate::analysis::dataset::{Answer, ConditionData, Order, OrderCounts, Votes};
+use crate::analysis::table::Interval;
+use crate::analysis::tails::{Alpha, Binomial};
 use crate::protocol::Position;
 use crate::seed;
 use proptest::prelude::*;
@@ -99,6 +101,26 @@ fn the_confidence_sequence_holds_at_every_vote_at_once() {
     assert!(nominal.upper_tail(missed).value() > 1e-4, "{missed}");
 }
 
+/// After 2000 votes for one and as many for the other e is e⁻¹⁰⁰⁰ of the largest and less, which no product
+/// of doubles comes back from.
+#[test]
+fn wealth_that_is_all_but_lost_can_come_back() {
+    let mut monitor = Monitor::default();
+    (0..2000).for_each(|_| _ = monitor.vote(true));
+    (0..2000).for_each(|_| _ = monitor.vote(false));
+    assert!(monitor.ln_e_value() < 0.0);
+    assert_eq!(monitor.largest_at(), 2000);
+    let largest = monitor.ln_largest_e_value();
+    assert!(largest - monitor.ln_e_value() > 1000.0);
+    let mut votes = 0;
+    while !monitor.vote(false) {
+        votes += 1;
+    }
+    assert!(votes > 1000);
+    assert!(monitor.ln_e_value() >= largest && monitor.largest_at() == 4001 + votes);
+    assert!((monitor.ln_largest_e_value() - monitor.ln_e_value()).abs() < 1e-9);
+}
+
 #[test]
 fn a_monitor_without_votes_says_nothing() {
     let monitor = Monitor::default();
@@ -194,9 +216,16 @@ proptest! {
     fn bets_add_up(votes in prop::collection::vec(any::<bool>(), 1..400)) {
         let mut monitor = Monitor::default();
         let mut before = Probability::ONE;
+        let (mut sum, mut largest) = (0.0_f64, 0.0_f64);
         for vote in votes {
-            monitor.vote(vote);
-            prop_assert!((monitor.ln_e - monitor.ln_e_value()).abs() < 1e-11);
+            let Votes { a, b } = monitor.votes();
+            let side = if vote { b } else { a };
+            sum += (2.0 * f64::from(side + 1) / f64::from(a + b + 2)).ln();
+            let larger = monitor.vote(vote);
+            prop_assert_eq!(larger, sum > largest + 1e-12, "{} {}", sum, largest);
+            largest = sum.max(largest);
+            prop_assert!((sum - monitor.ln_e_value()).abs() < 1e-11);
+            prop_assert!((largest - monitor.ln_largest_e_value()).abs() < 1e-11);
             prop_assert!(monitor.p().ln() <= before.ln() + 1e-12);
             before = monitor.p();
             let interval = monitor.interval(Alpha::FIVE_PERCENT);
