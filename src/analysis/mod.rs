@@ -18,6 +18,7 @@ pub mod tails;
 pub mod benjamini_hochberg;
 pub mod chi_square;
 pub mod clopper_pearson;
+pub mod consistency;
 pub mod effect_size;
 pub mod exact_binomial;
 pub mod holm;

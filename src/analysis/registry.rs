@@ -2,8 +2,8 @@
 
 use super::statistic::{About, ConditionStatistic, Correction, StudyStatistic};
 use super::{
-    benjamini_hochberg, chi_square, clopper_pearson, effect_size, exact_binomial, holm, mcnemar,
-    position_bias, scaling, wilson,
+    benjamini_hochberg, chi_square, clopper_pearson, consistency, effect_size, exact_binomial,
+    holm, mcnemar, position_bias, scaling, wilson,
 };
 
 /// Statistics of one condition.
@@ -24,6 +24,7 @@ pub const STUDY_STATISTICS: &[StudyStatistic] = &[
     position_bias::POOLED,
     mcnemar::STATISTIC,
     scaling::STATISTIC,
+    consistency::STATISTIC,
 ];
 
 /// What each of them is, without repetition.

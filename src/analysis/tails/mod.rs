@@ -11,6 +11,7 @@
 
 mod binomial;
 mod chi_square;
+mod chi_square_real;
 mod clopper_pearson;
 mod normal;
 mod saddle_point;
@@ -21,6 +22,7 @@ use std::cmp::Ordering;
 
 pub use binomial::{Binomial, two_sided_even};
 pub use chi_square::chi_square_upper;
+pub use chi_square_real::chi_square_upper_real;
 pub use clopper_pearson::clopper_pearson;
 pub use normal::{normal_critical, normal_quantile, normal_upper};
 
