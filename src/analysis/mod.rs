@@ -21,6 +21,7 @@ pub mod benjamini_hochberg;
 pub mod chi_square;
 pub mod clopper_pearson;
 pub mod cochran_q;
+pub mod consistency;
 pub mod effect_size;
 pub mod exact_binomial;
 pub mod holm;

@@ -2,9 +2,9 @@
 
 use super::statistic::{About, AnswerStatistic, ConditionStatistic, Correction, StudyStatistic};
 use super::{
-    audit, bayes_factor, benjamini_hochberg, chi_square, clopper_pearson, cochran_q, effect_size,
-    exact_binomial, holm, mcnemar, order_effect, position_bias, response_times, scaling,
-    sequential, wilson,
+    audit, bayes_factor, benjamini_hochberg, chi_square, clopper_pearson, cochran_q, consistency,
+    effect_size, exact_binomial, holm, mcnemar, order_effect, position_bias, response_times,
+    scaling, sequential, wilson,
 };
 
 /// Statistics of one condition.
@@ -34,6 +34,7 @@ pub const STUDY_STATISTICS: &[StudyStatistic] = &[
     sequential::STATISTIC,
     response_times::STATISTIC,
     scaling::STATISTIC,
+    consistency::STATISTIC,
     audit::STATISTIC,
 ];
 

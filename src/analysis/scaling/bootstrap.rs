@@ -132,7 +132,7 @@ fn refit(original: &Component, pairs: &[Pair]) -> Option<(Vec<f64>, Method)> {
     if !is_connected(&original.members, &mine) {
         return None;
     }
-    let scale = component(original.members.clone(), mine).fit(Link::Thurstone, None)?;
+    let scale = component(original.members.clone(), mine).fit_once(Link::Thurstone)?;
     let values = (0..original.members.len())
         .map(|place| scale.value(place))
         .collect();

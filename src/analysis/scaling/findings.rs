@@ -26,8 +26,13 @@ pub(super) fn all(scaling: &Scaling, context: &Context<'_>) -> Vec<String> {
         found.extend(one_way(scaling, component));
     }
     for (at, component) in scaling.components.iter().enumerate().take(MOST_PARTS) {
-        if let Some(scale) = &scaling.scales[0][at] {
-            found.push(ends(scaling, component, scale, context));
+        match &scaling.scales[0][at] {
+            Ok(scale) => found.push(ends(scaling, component, scale, context)),
+            Err(why) => found.push(format!(
+                "{} has no scale: {}.",
+                set(scaling, &component.members),
+                why.reason
+            )),
         }
     }
     if scaling.table.techniques.len() > 2 {
@@ -36,7 +41,7 @@ pub(super) fn all(scaling: &Scaling, context: &Context<'_>) -> Vec<String> {
             found.extend(fit(
                 scaling,
                 component,
-                scaling.scales[0][at].as_ref(),
+                scaling.scales[0][at].as_ref().ok(),
                 context,
             ));
         }

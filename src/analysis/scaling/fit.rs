@@ -81,6 +81,8 @@ pub struct Fit {
     pub beta: DVector<f64>,
     /// Inverse of the Fisher information there.
     pub covariance: DMatrix<f64>,
+    /// What was maximised, there.
+    pub objective: f64,
     /// The largest component of the gradient, relative to the sum of its terms' sizes.
     pub gradient: f64,
 }
@@ -93,6 +95,8 @@ pub(super) struct Local {
     pub size: DVector<f64>,
     /// What the step is solved with.
     pub curvature: Cholesky<f64, Dyn>,
+    /// The objective is known not to be concave here: no maximum, whatever the gradient.
+    pub is_saddle: bool,
     pub fisher: Cholesky<f64, Dyn>,
 }
 
@@ -148,8 +152,9 @@ pub fn maximise(
         }
         (beta, here, gradient) = (next_beta, next, next_gradient);
     }
-    (gradient <= GRADIENT_GOOD).then(|| Fit {
+    (gradient <= GRADIENT_GOOD && !here.is_saddle).then(|| Fit {
         covariance: here.fisher.inverse(),
+        objective: here.objective,
         beta,
         gradient,
     })
@@ -198,15 +203,19 @@ fn local(design: &Design, link: Link, penalised: bool, beta: &DVector<f64>) -> O
         design.add(&mut observed, row, row.wins * win + row.losses * loss);
     }
     let fisher = Cholesky::new(fisher)?;
+    let mut is_saddle = false;
     let curvature = if penalised {
         let penalty = firth::penalty(design, link, &points, &fisher);
         objective += penalty.value;
         score += penalty.slope;
         size += penalty.size;
-        // Where the objective is not concave yet, a matrix that surely leads up.
-        penalty
+        let exact = penalty
             .curvature
-            .and_then(|curvature| Cholesky::new(observed + curvature))
+            .map(|curvature| Cholesky::new(observed + curvature));
+        is_saddle = matches!(exact, Some(None));
+        // Where the objective is not concave, a matrix that surely leads up.
+        exact
+            .flatten()
             .or_else(|| Cholesky::new(penalty.stand_in))?
     } else {
         Cholesky::new(observed)?
@@ -216,6 +225,7 @@ fn local(design: &Design, link: Link, penalised: bool, beta: &DVector<f64>) -> O
         score,
         size,
         curvature,
+        is_saddle,
         fisher,
     })
 }

@@ -59,7 +59,7 @@ struct Scaling {
     /// Component of every technique.
     labels: Vec<usize>,
     /// By link as in [`LINKS`], then by component.
-    scales: [Vec<Option<Scale>>; 2],
+    scales: [Vec<Result<Scale, Undefined>>; 2],
     bootstrap: Option<Bootstrap>,
     differences: Vec<Difference>,
     order_effect: Option<Result<OrderEffect, Undefined>>,
@@ -74,7 +74,7 @@ impl Scaling {
         let scales = LINKS.map(|link| {
             components
                 .iter()
-                .map(|component| component.fit(link, None))
+                .map(|component| component.fit(link))
                 .collect::<Vec<_>>()
         });
         let differences = if pairwise::count(&components) > MOST_DIFFERENCES {
@@ -106,7 +106,7 @@ impl Scaling {
         } else if self.scales.iter().flatten().all(|scale| {
             scale
                 .as_ref()
-                .is_some_and(|scale| scale.method == Method::MaximumLikelihood)
+                .is_ok_and(|scale| scale.method == Method::MaximumLikelihood)
         }) {
             Status::Ok
         } else {

@@ -4,7 +4,7 @@ use super::comparison::Comparisons;
 use super::link::PROBIT_OF_JOD;
 use super::scale::{Component, Method, Scale};
 use crate::analysis::holm;
-use crate::analysis::table::Interval;
+use crate::analysis::table::{Interval, Undefined};
 use crate::analysis::tails::{Alpha, Probability, normal_critical, normal_upper};
 
 /// The difference of two techniques of one component, in JOD.
@@ -46,12 +46,12 @@ pub fn count(components: &[Component]) -> usize {
 pub fn differences(
     table: &Comparisons,
     components: &[Component],
-    scales: &[Option<Scale>],
+    scales: &[Result<Scale, Undefined>],
     alpha: Alpha,
 ) -> Vec<Difference> {
     let mut found = Vec::with_capacity(count(components));
     for (component, scale) in components.iter().zip(scales) {
-        let Some(scale) = scale else { continue };
+        let Ok(scale) = scale else { continue };
         let members = &component.members;
         for one in 0..members.len() {
             for other in one + 1..members.len() {
@@ -87,7 +87,7 @@ fn difference(
         .map_or((0, 0), |at| {
             (table.pairs[at].i_wins, table.pairs[at].j_wins)
         });
-    let z = jod / se;
+    let z = if se > 0.0 { jod / se } else { 0.0 };
     let p = two_sided(z);
     Difference {
         a,

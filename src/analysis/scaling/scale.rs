@@ -4,9 +4,11 @@
 use nalgebra::DVector;
 
 use super::comparison::{Comparisons, Pair};
+use super::firth;
 use super::fit::{Design, Fit, Row, maximise};
 use super::graph;
 use super::link::Link;
+use crate::analysis::table::Undefined;
 
 /// How a scale came about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,19 +62,43 @@ impl Component {
         }
     }
 
-    /// Fits a model. `None` where no maximum was found, which is not known to occur.
+    /// How it can be fitted.
     #[must_use]
-    pub fn fit(&self, link: Link, start: Option<&DVector<f64>>) -> Option<Scale> {
-        let method = if self.is_finite() {
+    pub fn method(&self) -> Method {
+        if self.is_finite() {
             Method::MaximumLikelihood
         } else {
             Method::Penalised
-        };
+        }
+    }
+
+    /// Fits a model.
+    ///
+    /// # Errors
+    /// There is no finite maximum of the likelihood and no unique one of the penalised likelihood.
+    pub fn fit(&self, link: Link) -> Result<Scale, Undefined> {
         let design = self.design();
-        let fit = maximise(&design, link, method == Method::Penalised, start)?;
+        let fit = match self.method() {
+            Method::MaximumLikelihood => maximise(&design, link, false, None)
+                .ok_or(Undefined::no_finite_estimate("the fit did not converge"))?,
+            Method::Penalised => firth::maximum(&design, link)?,
+        };
+        Ok(Scale {
+            link,
+            method: self.method(),
+            fit,
+            design,
+        })
+    }
+
+    /// Fits a resample: without a search for other maxima of the penalised likelihood.
+    #[must_use]
+    pub fn fit_once(&self, link: Link) -> Option<Scale> {
+        let design = self.design();
+        let fit = maximise(&design, link, self.method() == Method::Penalised, None)?;
         Some(Scale {
             link,
-            method,
+            method: self.method(),
             fit,
             design,
         })

@@ -131,7 +131,8 @@ fn finite(component: &Component, link: Link) -> Result<Scale, Undefined> {
         "no likelihood ratio where a scale has no finite maximum of the likelihood",
     );
     component
-        .fit(link, None)
+        .fit(link)
+        .ok()
         .filter(|scale| scale.method == Method::MaximumLikelihood)
         .ok_or(none)
 }

@@ -17,7 +17,6 @@ const ALONE: Undefined = Undefined::disconnected("has no votes, so no scale");
 const NOT_FINITE: Undefined = Undefined::no_finite_estimate(
     "the likelihood has no finite maximum: all votes between some techniques went one way",
 );
-const NOT_CONVERGED: Undefined = Undefined::no_finite_estimate("the fit did not converge");
 /// With more rows the scales by scene are folded away.
 const MOST_SHOWN: usize = 60;
 
@@ -162,8 +161,8 @@ fn jod(scaling: &Scaling, context: &Context<'_>) -> Table {
         row.extend(match find(&scaling.components, technique) {
             None => undefined(ALONE, 5, "no votes"),
             Some((component, place)) => match &scaling.scales[0][component] {
-                None => undefined(NOT_CONVERGED, 5, "no finite estimate"),
-                Some(scale) => {
+                Err(why) => undefined(*why, 5, why.status.text()),
+                Ok(scale) => {
                     let [value, se, wald] = estimate(scale, place, PROBIT_OF_JOD, alpha);
                     vec![
                         value,
@@ -238,8 +237,8 @@ fn bradley_terry(scaling: &Scaling, alpha: Alpha) -> Table {
         row.extend(match find(&scaling.components, technique) {
             None => undefined(ALONE, 6, "no votes"),
             Some((component, place)) => match &scaling.scales[1][component] {
-                None => undefined(NOT_CONVERGED, 6, "no finite estimate"),
-                Some(scale) => {
+                Err(why) => undefined(*why, 6, why.status.text()),
+                Ok(scale) => {
                     let (centred, centred_se) = scale.centred(place);
                     let mut cells = estimate(scale, place, 1.0, alpha).to_vec();
                     cells.extend([
@@ -315,7 +314,7 @@ fn fit(scaling: &Scaling) -> Table {
     for (at, link) in LINKS.into_iter().enumerate() {
         for (component, scale) in scaling.components.iter().zip(&scaling.scales[at]) {
             let part = scaling.labels[component.members[0]];
-            rows.push(fit_row(link, part, component, scale.as_ref()));
+            rows.push(fit_row(link, part, component, scale.as_ref().ok()));
         }
     }
     Table {
@@ -385,7 +384,11 @@ fn order_effect(scaling: &Scaling, alpha: Alpha) -> Table {
         None => Vec::new(),
         Some(Err(why)) => undefined(why, 7, why.status.text()),
         Some(Ok(effect)) => {
-            let z = effect.delta / effect.se;
+            let z = if effect.se > 0.0 {
+                effect.delta / effect.se
+            } else {
+                0.0
+            };
             vec![
                 Cell::Number(effect.delta),
                 Cell::Number(effect.se),
@@ -462,7 +465,7 @@ fn scene_rows(scene: &Scene, alpha: Alpha) -> Vec<Vec<Cell>> {
     let votes = scene.table.wins_and_losses();
     let mut rows = Vec::new();
     for component in &scene.components {
-        let scale = component.fit(Link::Thurstone, None);
+        let scale = component.fit(Link::Thurstone);
         for (place, &technique) in component.members.iter().enumerate() {
             let mut row = vec![Cell::Text(scene.name.clone())];
             row.extend(named(
@@ -472,8 +475,8 @@ fn scene_rows(scene: &Scene, alpha: Alpha) -> Vec<Vec<Cell>> {
                 &votes,
             ));
             match &scale {
-                None => row.extend(undefined(NOT_CONVERGED, 3, "no finite estimate")),
-                Some(scale) => {
+                Err(why) => row.extend(undefined(*why, 3, why.status.text())),
+                Ok(scale) => {
                     row.extend(estimate(scale, place, PROBIT_OF_JOD, alpha));
                     row.push(status(scale.method));
                 }

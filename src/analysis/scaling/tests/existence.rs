@@ -102,10 +102,14 @@ proptest! {
         let (parts, _) = components(&Comparisons::of(&data.conditions));
         for component in &parts {
             for link in [Link::BradleyTerry, Link::Thurstone] {
-                // A fit is there whatever the votes.
-                let scale = component.fit(link, None);
-                prop_assert!(scale.is_some(), "{:?}", rows);
-                let scale = scale.unwrap();
+                let scale = match component.fit(link) {
+                    Ok(scale) => scale,
+                    // Rare: the penalised likelihood can have two equal maxima.
+                    Err(why) => {
+                        prop_assert!(!component.is_finite() && why.reason.contains("equally high"));
+                        continue;
+                    }
+                };
                 if scale.method == Method::MaximumLikelihood {
                     prop_assert!(gradient(&data, &scale, component) < 1e-9);
                 }
@@ -140,7 +144,7 @@ proptest! {
                     let wanted = of(technique);
                     let component = parts.iter().find(|part| part.members.contains(&wanted))?;
                     let place = component.members.binary_search(&wanted).unwrap();
-                    let (value, se) = component.fit(link, None).unwrap().centred(place);
+                    let (value, se) = component.fit(link).ok()?.centred(place);
                     Some((component.members.len(), value, se))
                 })
                 .collect()
