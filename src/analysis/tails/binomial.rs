@@ -71,7 +71,8 @@ impl Binomial {
         } else {
             trials.mul_add(q, -failures)
         };
-        let correction = stirling_error(n) - stirling_error(k) - stirling_error(n - k);
+        let correction =
+            stirling_error(trials) - stirling_error(successes) - stirling_error(failures);
         correction
             - deviance(successes, trials * p, difference)
             - deviance(failures, trials * q, -difference)

@@ -1,40 +1,43 @@
-//! The chi-square distribution's upper tail.
+//! The chi-square distribution's tails and quantile.
 
-use statrs::function::gamma::{gamma_ur, ln_gamma};
-
-use super::{Probability, normal_upper};
+use super::gamma::Gamma;
+use super::{Probability, gamma_lower, gamma_upper, normal_upper};
 
 /// P(χ² ≥ x) with `df` degrees of freedom; 1 for x ≤ 0, NaN or df = 0.
 ///
-/// One degree of freedom is the square of a normal and goes through [`normal_upper`]. More: statrs'
-/// incomplete gamma (2e-13), and under e⁻⁶⁰⁰ the same continued fraction by its logarithm.
+/// One degree of freedom is the square of a normal and goes through [`normal_upper`]; more are an
+/// incomplete gamma function.
 #[must_use]
 pub fn chi_square_upper(x: f64, df: u32) -> Probability {
     if x.is_nan() || x <= 0.0 || df == 0 {
         return Probability::ONE;
     }
-    if x == f64::INFINITY {
-        return Probability::from_ln(f64::NEG_INFINITY);
-    }
     if df == 1 {
         return normal_upper(x.sqrt()).times(2.0);
     }
-    let (a, half) = (f64::from(df) / 2.0, x / 2.0);
-    let ln_factor = a * half.ln() - half - ln_gamma(a);
-    if half > a && ln_factor < -600.0 {
-        return Probability::from_ln(ln_factor - continued_fraction(a, half).ln());
-    }
-    Probability::from_ln(gamma_ur(a, half).ln())
+    gamma_upper(0.5 * x, 0.5 * f64::from(df))
 }
 
-/// x^a e^−x / Γ(a, x) by DLMF 8.9.2, from the far end; x > a, far out, where 200 levels are plenty.
-fn continued_fraction(a: f64, x: f64) -> f64 {
-    (1..=200)
-        .rev()
-        .map(f64::from)
-        .fold(x + 401.0 - a, |tail, i| {
-            x + (2.0 * i - 1.0) - a - i * (i - a) / tail
-        })
+/// P(χ² ≤ x); 0 for x ≤ 0, 1 for NaN or df = 0.
+#[must_use]
+pub fn chi_square_lower(x: f64, df: u32) -> Probability {
+    gamma_lower(0.5 * x, 0.5 * f64::from(df))
+}
+
+/// The x with P(χ² ≥ x) = `tail`; `None` unless 0 < tail < 1 and df > 0.
+#[must_use]
+pub fn chi_square_quantile(tail: f64, df: u32) -> Option<f64> {
+    if !(tail > 0.0 && tail < 1.0) {
+        return None;
+    }
+    let gamma = Gamma::new(0.5 * f64::from(df))?;
+    Some(
+        2.0 * if tail <= 0.5 {
+            gamma.upper_quantile(tail.ln())
+        } else {
+            gamma.lower_quantile((1.0 - tail).ln())
+        },
+    )
 }
 
 #[cfg(test)]

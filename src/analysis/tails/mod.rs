@@ -9,20 +9,47 @@
 //! No function here returns NaN or panics, and each takes at most about a millisecond for
 //! n ≤ 10⁷ (the cost grows with √n).
 
+mod beta;
 mod binomial;
 mod chi_square;
 mod clopper_pearson;
+mod elementary;
+mod f;
+mod gamma;
+mod newton;
 mod normal;
 mod saddle_point;
+mod student_t;
 #[cfg(test)]
 mod table;
+mod tail_integral;
 
 use std::cmp::Ordering;
 
+pub use beta::{beta_lower, beta_quantile, beta_upper};
 pub use binomial::{Binomial, two_sided_even};
-pub use chi_square::chi_square_upper;
+pub use chi_square::{chi_square_lower, chi_square_quantile, chi_square_upper};
 pub use clopper_pearson::clopper_pearson;
+pub use f::{f_quantile, f_upper};
+pub use gamma::{gamma_lower, gamma_upper};
 pub use normal::{normal_critical, normal_quantile, normal_upper};
+pub use saddle_point::{ln_beta, ln_gamma};
+pub use student_t::{student_t_critical, student_t_quantile, student_t_upper};
+
+/// ln(1 − e^ln).
+fn complement(ln: f64) -> f64 {
+    // Near 1 the difference is in the exponential, near 0 in its logarithm (Mächler 2012).
+    if ln > -std::f64::consts::LN_2 {
+        (-ln.exp_m1()).ln()
+    } else {
+        (-ln.exp()).ln_1p()
+    }
+}
+
+/// About the normal's quantile of a tail of at most ½, given its logarithm: where inversions begin.
+fn normal_start(ln_tail: f64) -> f64 {
+    (-2.0 * (ln_tail + std::f64::consts::LN_2)).max(0.0).sqrt()
+}
 
 /// A probability, kept as its natural logarithm so that one under 1e-308 is still a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
