@@ -30,7 +30,11 @@ impl Holm {
         for (step, &here) in at_most.iter().enumerate() {
             let here = here.clamp(before, 1.0);
             // Of those above the last threshold, the share under this one.
-            let share = if before < 1.0 { (here - before) / (1.0 - before) } else { 1.0 };
+            let share = if before < 1.0 {
+                (here - before) / (1.0 - before)
+            } else {
+                1.0
+            };
             going = moved(&going, share);
             // With `step` or fewer under the threshold of step + 1, it stops after `step`.
             rejections[step] = going[..=step].iter().sum();
@@ -152,7 +156,10 @@ mod tests {
             let p: Vec<Probability> = (0..FAMILY)
                 .map(|_| Probability::from_ln(3.0 * seed::unit_f64(&mut rng).ln()))
                 .collect();
-            let found = holm::adjust(&p).iter().filter(|p| p.value() <= 0.05).count();
+            let found = holm::adjust(&p)
+                .iter()
+                .filter(|p| p.value() <= 0.05)
+                .count();
             counts[found] += 1;
         }
         let levels: Vec<f64> = (1..=FAMILY)

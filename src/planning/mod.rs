@@ -8,8 +8,13 @@
 pub mod family;
 pub mod orders;
 pub mod power;
+pub mod preregistration;
 pub mod sample_size;
 pub mod sheet;
+pub mod simulate;
 
 pub use power::Test;
 pub use sample_size::{Criterion, SampleSize};
+
+#[cfg(test)]
+mod tests;

@@ -199,7 +199,10 @@ mod tests {
             let there = test.power(36, p, Alpha::FIVE_PERCENT).value();
             assert!((there - 0.8).abs() < 1e-9, "{there}");
         }
-        assert_eq!(Test::Exact.detectable(36, 0.01, Alpha::FIVE_PERCENT), Some(0.5));
+        assert_eq!(
+            Test::Exact.detectable(36, 0.01, Alpha::FIVE_PERCENT),
+            Some(0.5)
+        );
     }
 
     proptest! {

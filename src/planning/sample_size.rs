@@ -197,7 +197,10 @@ impl Question {
     /// No n from `a` to `b` has less power.
     fn least(&self, a: u32, b: u32) -> f64 {
         self.combined(|alpha| {
-            let (first, last) = (Region::of(self.test, a, alpha), Region::of(self.test, b, alpha));
+            let (first, last) = (
+                Region::of(self.test, a, alpha),
+                Region::of(self.test, b, alpha),
+            );
             let up = tail_up(a, self.p, last.at_least);
             both(up, tail_down(b, self.p, first.at_most)).value()
         })
@@ -206,7 +209,10 @@ impl Question {
     /// No n from `a` to `b` has more power.
     fn most(&self, a: u32, b: u32) -> f64 {
         self.combined(|alpha| {
-            let (first, last) = (Region::of(self.test, a, alpha), Region::of(self.test, b, alpha));
+            let (first, last) = (
+                Region::of(self.test, a, alpha),
+                Region::of(self.test, b, alpha),
+            );
             let up = tail_up(b, self.p, first.at_least);
             (up.value() + tail_down(a, self.p, last.at_most).value()).min(1.0)
         })
@@ -217,7 +223,11 @@ impl Question {
     fn combined(&self, rejects: impl Fn(Alpha) -> f64) -> f64 {
         let holm = || {
             let steps = 1..=self.conditions;
-            Holm::new(&steps.map(|step| rejects(self.level(step))).collect::<Vec<_>>())
+            Holm::new(
+                &steps
+                    .map(|step| rejects(self.level(step)))
+                    .collect::<Vec<_>>(),
+            )
         };
         match self.criterion {
             Criterion::Uncorrected => rejects(self.alpha),

@@ -15,6 +15,7 @@ mod json;
 mod markup;
 mod methods;
 mod number;
+pub mod planning;
 mod svg;
 mod text;
 

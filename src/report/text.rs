@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::VERSION;
 use super::number::{align_decimals, shown, width};
 use crate::analysis::Analysis;
+use crate::analysis::statistic::Section;
 use crate::analysis::table::{Cell, Group, Style, Table};
 
 /// Sentences are wrapped here; tables are as wide as they need.
@@ -46,18 +47,31 @@ pub fn render(analysis: &Analysis) -> String {
         heading(&mut out, &title);
         table(&mut out, &analysis.conditions.only(groups));
     }
-    for section in &analysis.sections {
-        heading(&mut out, section.title);
-        for finding in &section.findings {
-            paragraph(&mut out, finding);
-        }
-        for part in section.tables.iter().filter(|part| !part.long) {
-            paragraph(&mut out, &format!("{}:", part.caption));
-            table(&mut out, &part.table);
-        }
+    for part in &analysis.sections {
+        section(&mut out, part);
     }
     inputs(&mut out, analysis);
     out
+}
+
+/// Sections alone.
+pub fn sections(sections: &[Section]) -> String {
+    let mut out = String::new();
+    for part in sections {
+        section(&mut out, part);
+    }
+    out
+}
+
+fn section(out: &mut String, section: &Section) {
+    heading(out, section.title);
+    for finding in &section.findings {
+        paragraph(out, finding);
+    }
+    for part in section.tables.iter().filter(|part| !part.long) {
+        paragraph(out, &format!("{}:", part.caption));
+        table(out, &part.table);
+    }
 }
 
 fn heading(out: &mut String, title: &str) {

@@ -38,7 +38,10 @@ fn small_effects_are_found_too() {
     let size = question.sample_size(0.8).unwrap();
     // The normal approximation, good to a thousandth here: ((1.96 + 0.8416 · 0.999992) / 0.004)².
     let approximate = ((1.959_964 + 0.841_621) / 0.004_f64).powi(2);
-    assert!((f64::from(size.stable) / approximate - 1.0).abs() < 2e-3, "{size:?}");
+    assert!(
+        (f64::from(size.stable) / approximate - 1.0).abs() < 2e-3,
+        "{size:?}"
+    );
     assert!(question.power(size.stable) >= 0.8 && question.power(size.stable - 1) < 0.8);
 }
 
