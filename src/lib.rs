@@ -34,6 +34,8 @@ pub mod session;
 
 pub mod analysis;
 
+pub mod planning;
+
 pub mod report;
 
 pub mod app;

@@ -28,7 +28,7 @@ use crate::stimulus::{Folders, Manifest, StimulusError, StimulusSet};
 /// folders are compared in the same way.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example:\n  greyfield check stimuli/thesis-2010\n  greyfield check stimuli/thesis-2010 --set stimuli/thesis-2010.toml --diff differences\n  greyfield check results/thesis-2010\n  greyfield check protocols/yu-2009-reference.toml\n  greyfield check --stability\n  greyfield check --display --seconds 5"
+    after_help = "Example:\n  greyfield check stimuli/thesis-2010\n  greyfield check stimuli/thesis-2010 --set stimuli/thesis-2010.toml --diff differences\n  greyfield check results/thesis-2010\n  greyfield check protocols/yu-2009-reference.toml\n  greyfield check protocols/thesis-2010.toml --preregister -o preregistration.md\n  greyfield check --stability\n  greyfield check --display --seconds 5"
 )]
 pub struct Check {
     /// A folder of images with its manifest, a results folder, or a config: protocol, set or scene.
@@ -71,6 +71,14 @@ pub struct Check {
     /// For a results folder: how findings are printed.
     #[arg(long, value_enum, conflicts_with_all = ["set", "against", "diff", "stability"])]
     format: Option<check_results::Format>,
+    /// For a protocol: write a preregistration of it, under the headings of the OSF's form, in
+    /// Markdown: hypotheses, design, sample size with its power, procedure, questions, exclusions,
+    /// analysis.
+    #[arg(long, conflicts_with_all = ["set", "against", "diff", "stability", "display", "format"])]
+    preregister: bool,
+    /// With --preregister: where to write it [default: standard output].
+    #[arg(long, short, value_name = "FILE", requires = "preregister")]
+    output: Option<PathBuf>,
 }
 
 /// Runs the command.
@@ -84,6 +92,9 @@ pub fn run(args: &Check, verbosity: Verbosity) -> Result<(), Failure> {
     let Some(folder) = &args.folder else {
         return stability(verbosity);
     };
+    if args.preregister {
+        return check_config::preregister(folder, args.output.as_deref());
+    }
     if check_config::is_config(folder) {
         return check_config::run(folder);
     }

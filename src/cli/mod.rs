@@ -19,6 +19,7 @@ mod observer;
 mod order;
 mod output;
 mod participants;
+mod power;
 mod render;
 mod replay;
 mod run;
@@ -68,6 +69,7 @@ enum Command {
     Order(order::Order),
     Participants(participants::Participants),
     Export(export::Export),
+    Power(Box<power::Power>),
     Analyse(Box<analyse::AnalyseArgs>),
 }
 
@@ -154,6 +156,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Order(args) => order::run(&args),
         Command::Participants(args) => participants::run(&args),
         Command::Export(args) => export::run(&args, verbosity),
+        Command::Power(args) => power::run(&args, verbosity),
         Command::Analyse(args) => analyse::run(&args, verbosity),
     }
 }

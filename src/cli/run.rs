@@ -52,9 +52,11 @@ pub struct Run {
     /// No window: scripted observers sit the same sessions in virtual time.
     #[arg(long, requires_all = ["observer", "participants"])]
     pub headless: bool,
-    /// Who answers: random:SEED (a fair coin), first (always the first image), or
+    /// Who answers: random:SEED (a fair coin), first (always the first image),
     /// model:SEED[,KEY=VALUE…] (by the images' distance to the truth; keys: metric=flip|error,
-    /// sigma, lapse, bias, participants, truth=LABEL; see docs/observers.md).
+    /// sigma, lapse, bias, participants, truth=LABEL), or share:SEED[,KEY=VALUE…] (the second
+    /// technique of each pair with a given probability; keys: p, bias, participants); see
+    /// docs/observers.md.
     #[arg(long, value_name = "OBSERVER", requires = "headless")]
     pub observer: Option<String>,
     /// How many scripted participants there are to be in the end.

@@ -33,12 +33,25 @@ struct Report<'a> {
     notes: &'a [String],
 }
 
+/// One section.
 #[derive(Serialize)]
-struct SectionJson<'a> {
+pub struct SectionJson<'a> {
     id: &'static str,
     status: &'static str,
     findings: &'a [String],
     tables: Tables<'a>,
+}
+
+impl<'a> SectionJson<'a> {
+    /// Of a section.
+    pub fn new(section: &'a Section) -> Self {
+        Self {
+            id: section.id,
+            status: section.status.text(),
+            findings: &section.findings,
+            tables: Tables(section),
+        }
+    }
 }
 
 /// The report, indented.
@@ -49,16 +62,7 @@ pub fn render(analysis: &Analysis) -> Result<String, ReportError> {
         settings: &analysis.settings,
         conclusion: &analysis.conclusion,
         conditions: Rows(&analysis.conditions),
-        sections: analysis
-            .sections
-            .iter()
-            .map(|section| SectionJson {
-                id: section.id,
-                status: section.status.text(),
-                findings: &section.findings,
-                tables: Tables(section),
-            })
-            .collect(),
+        sections: analysis.sections.iter().map(SectionJson::new).collect(),
         study: &analysis.data.study,
         exclusions: &analysis.data.exclusions,
         methods: methods::paragraphs(analysis),

@@ -17,6 +17,7 @@ mod json;
 mod markup;
 mod methods;
 pub mod number;
+pub mod planning;
 pub mod raster;
 pub mod study_figures;
 mod svg;

@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::document::{Block, document};
+use super::document::{Block, Part, document};
 use super::number::{align_decimals, reasons, shown, width};
 use crate::analysis::Analysis;
+use crate::analysis::statistic::Section;
 use crate::analysis::table::{Style, Table};
 
 /// Sentences are wrapped here; tables are as wide as they need.
@@ -12,8 +13,17 @@ const LINE: usize = 96;
 
 /// The whole report.
 pub fn render(analysis: &Analysis) -> String {
+    parts(document(analysis).parts)
+}
+
+/// Sections alone.
+pub fn sections(sections: &[Section]) -> String {
+    parts(sections.iter().map(Part::of_section))
+}
+
+fn parts(parts: impl IntoIterator<Item = Part>) -> String {
     let mut out = String::new();
-    for part in document(analysis).parts {
+    for part in parts {
         heading(
             &mut out,
             match part.title.as_str() {

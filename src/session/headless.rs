@@ -145,55 +145,66 @@ impl Headless<'_> {
             language: self.protocol.language,
         };
         let mut session = start::start(self.protocol, self.manifest, &enrolment, &setting)?;
-        let mut driver = Driver {
-            observer: &*self.scripted.observer,
-            protocol: self.protocol,
-            now: SessionTime::default(),
-        };
         let mut rows = 0;
-        while !session.is_over() {
-            if let Screen::StorageTrouble { detail } = session.screen() {
-                return Err(HeadlessError::Store {
-                    participant: enrolment.participant.to_string(),
-                    trial: session.stored(),
-                    detail: detail.clone(),
+        let store = |effect: &Effect| {
+            let outcome = start::perform(effect, &mut enrolment);
+            if let (Effect::StoreRow(row), Event::RowStored) = (effect, &outcome) {
+                rows += 1;
+                report(Progress::Stored {
+                    row_id: &row.row_id,
+                    path: enrolment.log.path(),
                 });
             }
-            for effect in driver.act(&mut session) {
-                rows += store(&effect, &mut enrolment, &mut session, driver.now, report);
-            }
+            outcome
+        };
+        let observer = &*self.scripted.observer;
+        let outcome = sit(&mut session, self.protocol, observer, None, store);
+        match outcome {
+            Ok(()) => Ok(rows),
+            Err(detail) => Err(HeadlessError::Store {
+                participant: enrolment.participant.to_string(),
+                trial: session.stored(),
+                detail,
+            }),
         }
-        Ok(rows)
     }
 }
 
-/// Stores what an effect asks, tells the session and, if it is a row on disk, the
-/// caller. Gives the number of rows.
-fn store(
-    effect: &Effect,
-    enrolment: &mut Enrolment,
+/// An observer sits a session to its end, or leaves it once so many trials are on record.
+/// `store` does what an effect asks and gives the event to answer it with.
+///
+/// # Errors
+/// What the storage said where it failed; nothing after it was asked.
+pub fn sit(
     session: &mut Session,
-    now: SessionTime,
-    report: &mut impl FnMut(Progress),
-) -> u64 {
-    let outcome = start::perform(effect, enrolment);
-    let stored = outcome == Event::RowStored;
-    session.handle(outcome, now);
-    match effect {
-        Effect::StoreRow(row) if stored => {
-            report(Progress::Stored {
-                row_id: &row.row_id,
-                path: enrolment.log.path(),
-            });
-            1
+    protocol: &Protocol,
+    observer: &dyn Observer,
+    leaves_after: Option<usize>,
+    mut store: impl FnMut(&Effect) -> Event,
+) -> Result<(), String> {
+    let mut driver = Driver {
+        observer,
+        protocol,
+        now: SessionTime::default(),
+    };
+    while !session.is_over() {
+        if let Screen::StorageTrouble { detail } = session.screen() {
+            return Err(detail.clone());
         }
-        _ => 0,
+        if leaves_after == Some(session.stored()) {
+            session.handle(Event::Abort, driver.now);
+            continue;
+        }
+        for effect in driver.act(session) {
+            session.handle(store(&effect), driver.now);
+        }
     }
+    Ok(())
 }
 
 /// An observer before a screen, with a clock that only moves when it acts.
 #[derive(Debug)]
-pub struct Driver<'a> {
+struct Driver<'a> {
     observer: &'a dyn Observer,
     protocol: &'a Protocol,
     now: SessionTime,

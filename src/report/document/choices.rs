@@ -82,13 +82,7 @@ pub fn tests(analysis: &Analysis) -> Part {
 
 /// A statistic of the whole study.
 pub fn section(section: &Section, analysis: &Analysis) -> Part {
-    let mut part = Part::new(section.title);
-    if section.status != Status::Ok {
-        part.note(format!("Status: {}.", section.status.text()));
-    }
-    for finding in &section.findings {
-        part.paragraph(finding);
-    }
+    let mut part = findings(section);
     part.figures(analysis, section.id);
     if section.id == POSITION {
         part.table(TableBlock::new(
@@ -96,9 +90,34 @@ pub fn section(section: &Section, analysis: &Analysis) -> Part {
             analysis.conditions.only(&[Group::Key, Group::Position]),
         ));
     }
+    tables(&mut part, section);
+    part
+}
+
+impl Part {
+    /// A section without figures.
+    #[must_use]
+    pub fn of_section(section: &Section) -> Self {
+        let mut part = findings(section);
+        tables(&mut part, section);
+        part
+    }
+}
+
+fn findings(section: &Section) -> Part {
+    let mut part = Part::new(section.title);
+    if section.status != Status::Ok {
+        part.note(format!("Status: {}.", section.status.text()));
+    }
+    for finding in &section.findings {
+        part.paragraph(finding);
+    }
+    part
+}
+
+fn tables(part: &mut Part, section: &Section) {
     for table in &section.tables {
         let block = TableBlock::new(table.caption, table.table.clone());
         part.table(block.folded(table.long));
     }
-    part
 }

@@ -3,12 +3,15 @@
 
 mod first;
 mod model;
+mod options;
 mod qualities;
 mod random;
+pub mod share;
 
 use std::fmt;
 
 pub use qualities::{Distances, Metric, Needs, Qualities};
+pub use share::Share;
 
 use super::Answer;
 use crate::digest;
@@ -88,7 +91,7 @@ pub struct Kind {
 }
 
 /// Every kind of observer.
-pub const KINDS: &[&Kind] = &[&random::RANDOM, &first::FIRST, &model::MODEL];
+pub const KINDS: &[&Kind] = &[&random::RANDOM, &first::FIRST, &model::MODEL, &share::SHARE];
 
 /// An observer and the name it was made from.
 #[derive(Debug)]

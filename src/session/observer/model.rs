@@ -3,6 +3,7 @@
 
 use rand_chacha::ChaCha20Rng;
 
+use super::options::{number, split};
 use super::qualities::{Metric, Qualities};
 use super::{Behaviour, Kind, Observer, Question};
 use crate::protocol::Position;
@@ -43,21 +44,7 @@ const KEYS: &str = "metric, sigma, lapse, bias, participants, truth";
 impl Options {
     /// The message says what is needed, as the end of a sentence.
     fn parse(argument: &str) -> Result<Self, String> {
-        let mut parts = argument.split(',');
-        let seed = parts.next().unwrap_or_default();
-        let seed = seed.parse().map_err(|_| {
-            format!("a whole number from 0 behind the colon, then options such as sigma=0.1 ({KEYS}) after commas; not {seed:?}")
-        })?;
-        let mut given: Vec<(&str, &str)> = Vec::new();
-        for part in parts {
-            let (key, value) = part
-                .split_once('=')
-                .ok_or_else(|| format!("KEY=VALUE after each comma ({KEYS}), not {part:?}"))?;
-            if given.iter().any(|(known, _)| *known == key) {
-                return Err(format!("each option once; {key} stands twice"));
-            }
-            given.push((key, value));
-        }
+        let (seed, given) = split(argument, "sigma=0.1", KEYS)?;
         Self::with(seed, &given)
     }
 
@@ -110,18 +97,6 @@ fn metric(value: &str) -> Result<Metric, String> {
         "error" => Ok(Metric::Error),
         _ => Err(format!("flip or error for metric, not {value:?}")),
     }
-}
-
-fn number(
-    key: &str,
-    value: &str,
-    is_allowed: impl Fn(f64) -> bool,
-    allowed: &str,
-) -> Result<f64, String> {
-    let parsed = value.parse().ok();
-    parsed
-        .filter(|&number: &f64| number.is_finite() && is_allowed(number))
-        .ok_or_else(|| format!("a number {allowed} for {key}, not {value:?}"))
 }
 
 #[derive(Debug)]
@@ -235,7 +210,7 @@ fn chance_of_first(in_sigmas: f64, lapse: f64) -> f64 {
 }
 
 /// A standard normal number (Box & Muller 1958), the same on every machine.
-fn normal(rng: &mut ChaCha20Rng) -> f64 {
+pub(super) fn normal(rng: &mut ChaCha20Rng) -> f64 {
     // 1 − [0, 1) is never 0, which has no logarithm.
     let radius = libm::sqrt(-2.0 * libm::log(1.0 - seed::unit_f64(rng)));
     radius * libm::cos(std::f64::consts::TAU * seed::unit_f64(rng))

@@ -37,7 +37,8 @@ impl Observer for Random {
     }
 }
 
-fn by_chance(rng: &mut ChaCha20Rng, question: &Question<'_>) -> Answer {
+/// Any answer that fits, each equally often.
+pub(super) fn by_chance(rng: &mut ChaCha20Rng, question: &Question<'_>) -> Answer {
     match question.ask {
         Ask::Choice | Ask::CloserToReference => {
             let answers = if question.protocol.cannot_tell { 3 } else { 2 };
@@ -64,6 +65,6 @@ fn by_chance(rng: &mut ChaCha20Rng, question: &Question<'_>) -> Answer {
 }
 
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // between 0 and 12e9
-fn seconds_between(rng: &mut ChaCha20Rng, low: f64, high: f64) -> u64 {
+pub(super) fn seconds_between(rng: &mut ChaCha20Rng, low: f64, high: f64) -> u64 {
     ((low + (high - low) * seed::unit_f64(rng)) * 1e9) as u64
 }
