@@ -48,7 +48,8 @@ pub fn is_results_folder(folder: &Path) -> bool {
     folder.join(record::study::STUDY_FILE).is_file() || folder.join(DATA_FOLDER).is_dir()
 }
 
-/// The data files of a results folder, sorted by name.
+/// The data files of a results folder in the order of their first answers, so that participants
+/// appear in the order they took part: tests that may be looked at early need it.
 ///
 /// # Errors
 /// [`InputError`] for a folder that cannot be read or has no data files.
@@ -63,6 +64,7 @@ pub fn data_files(folder: &Path) -> Result<Vec<PathBuf>, InputError> {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         name.ends_with(DATA_SUFFIX) && !name.starts_with('.')
     });
+    files.sort_by_cached_key(|path| (first_answer(path), path.clone()));
     if files.is_empty() {
         return Err(InputError::whole(
             folder,
@@ -70,6 +72,21 @@ pub fn data_files(folder: &Path) -> Result<Vec<PathBuf>, InputError> {
         ));
     }
     Ok(files)
+}
+
+/// Wall-clock time of a file's first answer, ISO 8601; empty where there is none. What is wrong
+/// with the file is said when it is read.
+fn first_answer(path: &Path) -> String {
+    let Ok(mut reader) = csv::Reader::from_path(path) else {
+        return String::new();
+    };
+    let time = |header: &csv::StringRecord| header.iter().position(|name| name == "answered_utc");
+    let Some(column) = reader.headers().ok().and_then(time) else {
+        return String::new();
+    };
+    let row = reader.records().next().and_then(Result::ok);
+    row.and_then(|row| row.get(column).map(str::to_owned))
+        .unwrap_or_default()
 }
 
 /// Reads one session file. Damaged lines are passed over and noted.

@@ -281,6 +281,26 @@ fn a_results_folder_carries_base_orders_and_leaves_out_what_does_not_count() {
 }
 
 /// A rejection is a file beside the claim; nothing in the data tells of it.
+/// Who stands first in the folder's list of files is not who came first.
+#[test]
+fn participants_appear_in_the_order_they_took_part() {
+    let dir = tempfile::tempdir().unwrap();
+    let data = dir.path().join("data");
+    std::fs::create_dir(&data).unwrap();
+    for (id, minute) in [("A", 30), ("B", 10), ("C", 20)] {
+        let row = TrialRow {
+            answered_utc: format!("2026-11-02T09:{minute}:00Z"),
+            ..row(id, 0, "a")
+        };
+        let file = data.join(format!("study-s_subject-{id}_session-1_data.csv"));
+        let mut bytes = line::header().into_bytes();
+        bytes.extend(line::encode(&row).unwrap());
+        std::fs::write(file, bytes).unwrap();
+    }
+    let data = read(&[dir.path().to_owned()], Options::default()).unwrap();
+    assert_eq!(data.participants, ["B", "C", "A"]);
+}
+
 #[test]
 fn rejected_participants_are_left_out_and_named() {
     let dir = results_folder(
