@@ -64,6 +64,39 @@ fn bench(criterion: &mut Criterion) {
             bencher.iter(|| tails::clopper_pearson(black_box(k), n, tails::Alpha::FIVE_PERCENT));
         });
     }
+    // The slowest arguments that a search over 60,000 random ones found, and large ones.
+    group.bench_function("binomial tail, n = 10000000 at its mean", |bencher| {
+        let x = tails::Binomial::new(10_000_000, 0.65).expect("a probability");
+        bencher.iter(|| x.upper_tail(black_box(6_500_000)));
+    });
+    for (a, b) in [(1.1, 2.2), (261.7, 8.45), (1e7, 1e7)] {
+        let x = a / (a + b) * 0.999;
+        group.bench_function(format!("beta tail, {a} and {b}"), |bencher| {
+            bencher.iter(|| tails::beta_lower(black_box(x), a, b));
+        });
+    }
+    for (a, b) in [(0.008_8, 3.1e6), (12.0, 26.0), (1e7, 1e7)] {
+        group.bench_function(format!("beta quantile, {a} and {b}"), |bencher| {
+            bencher.iter(|| tails::beta_quantile(black_box(0.975), a, b));
+        });
+    }
+    for df in [6.0, 1e7] {
+        group.bench_function(format!("t tail, {df} degrees"), |bencher| {
+            bencher.iter(|| tails::student_t_upper(black_box(2.5), df));
+        });
+        group.bench_function(format!("t critical value, {df} degrees"), |bencher| {
+            bencher.iter(|| tails::student_t_critical(tails::Alpha::FIVE_PERCENT, black_box(df)));
+        });
+        group.bench_function(format!("F tail, {df} and 210 degrees"), |bencher| {
+            bencher.iter(|| tails::f_upper(black_box(2.1), df, 210.0));
+        });
+        group.bench_function(format!("chi-square tail, {df} degrees"), |bencher| {
+            bencher.iter(|| tails::chi_square_upper(black_box(1.001 * df), df as u32));
+        });
+    }
+    group.bench_function("normal quantile, 1e-300", |bencher| {
+        bencher.iter(|| tails::normal_quantile(black_box(1e-300)));
+    });
     group.finish();
 }
 

@@ -5,11 +5,11 @@
 
 use std::f64::consts::PI;
 
+use super::Probability;
 use super::elementary::{exp_minus, ln_1p_minus};
-use super::newton::{self, Tail};
+use super::newton::{self, Tail, normal_start};
 use super::saddle_point::{deviance, ln_beta, stirling_error};
 use super::tail_integral::{Exponent, tail_integral};
-use super::{Probability, complement, normal_start};
 
 /// Up to this a, and this x, the power series has some 200 terms at most.
 const SERIES_SHAPE: f64 = 400.0;
@@ -160,15 +160,26 @@ impl Beta {
 
     /// ln I_x(a, b).
     pub fn ln_lower(&self, point: &Point) -> f64 {
-        if point.x <= 0.0 && point.ln_odds == f64::NEG_INFINITY {
-            f64::NEG_INFINITY
-        } else if point.y <= 0.0 && point.ln_odds == f64::INFINITY {
-            0.0
-        } else if point.excess >= 0.0 {
-            self.ln_short(point)
-        } else {
-            complement(self.turned().ln_short(&point.turned()))
+        self.lower(point).ln
+    }
+
+    /// ln I_x(a, b) and its slopes along ln(x/y).
+    fn lower(&self, point: &Point) -> Tail {
+        let density_slope = point.excess;
+        if point.ln_odds.is_infinite() {
+            // x = 0 or y = 0, exactly.
+            return Tail {
+                ln: point.ln_odds.min(0.0),
+                slope: 0.0,
+                density_slope,
+            };
         }
+        let ln_density = self.ln_density(point);
+        if point.excess >= 0.0 {
+            return Tail::short(ln_density, self.per_density(point), density_slope);
+        }
+        let other = self.turned().per_density(&point.turned());
+        Tail::long(ln_density, other, density_slope)
     }
 
     /// ln I_y(b, a).
@@ -176,32 +187,20 @@ impl Beta {
         self.turned().ln_lower(&point.turned())
     }
 
-    /// The lower tail where it does not reach the mode.
-    fn ln_short(&self, point: &Point) -> f64 {
+    /// I_x(a, b) over the density at x, where the tail does not reach the mode.
+    fn per_density(&self, point: &Point) -> f64 {
         let Self { a, n, .. } = *self;
-        let Point { x, y, .. } = *point;
-        let ln_density = self.ln_density(point);
-        if a > SERIES_SHAPE {
-            let exponent = BetaExponent {
-                n,
-                x,
-                y,
-                excess: point.excess,
-            };
-            return ln_density + tail_integral(&exponent, f64::INFINITY).0.ln();
+        let Point { x, y, excess, .. } = *point;
+        if a <= SERIES_SHAPE && x <= SERIES_X {
+            return self.series(x) / a;
         }
-        if x <= SERIES_X {
-            return ln_density + (self.series(x) / a).ln();
+        let exponent = BetaExponent { n, x, y, excess };
+        if a > SERIES_SHAPE {
+            return tail_integral(&exponent, f64::INFINITY).0;
         }
         // Down to ½ by the integral, where the series takes over.
-        let exponent = BetaExponent {
-            n,
-            x,
-            y,
-            excess: point.excess,
-        };
         let (above, rest) = tail_integral(&exponent, point.ln_odds);
-        ln_density + (above + rest * self.series(0.5) / a).ln()
+        above + rest * self.series(0.5) / a
     }
 
     /// ln of x^a y^b / B(a, b), by the saddle-point expansion: no large terms that cancel.
@@ -246,17 +245,15 @@ impl Beta {
     /// The ln(x/y) with ln I_x(a, b) = `ln_tail`, which is at most about ln ½.
     pub fn lower_quantile(&self, ln_tail: f64) -> f64 {
         let Self { a, b, .. } = *self;
-        // The normal's quantile at the mode's width.
-        let start = a.ln() - b.ln() - normal_start(ln_tail) * (1.0 / a + 1.0 / b).sqrt();
-        newton::solve(ln_tail, start, |s| {
-            let point = self.at_logit(s);
-            let ln = self.ln_lower(&point);
-            Tail {
-                ln,
-                slope: (self.ln_density(&point) - ln).exp(),
-                density_slope: point.excess,
-            }
-        })
+        // The normal's quantile at the mode's width, or the power that the far tail is like, x^a / (a B(a, b)).
+        let bell = a.ln() - b.ln() - normal_start(ln_tail) * (1.0 / a + 1.0 / b).sqrt();
+        let ln_x = (ln_tail + a.ln() + ln_beta(a, b)) / a;
+        let power = if ln_x < 0.0 {
+            ln_x - (-ln_x.exp_m1()).ln()
+        } else {
+            f64::NEG_INFINITY
+        };
+        newton::solve(ln_tail, bell.max(power), |s| self.lower(&self.at_logit(s)))
     }
 }
 

@@ -1,6 +1,7 @@
-//! The Clopper–Pearson bounds, by a safeguarded Newton iteration on the binomial tail.
+//! The Clopper–Pearson bounds, as quantiles of the beta distribution.
 
-use super::{Alpha, Binomial};
+use super::Alpha;
+use super::beta::{Beta, logistic};
 
 /// The exact interval of a proportion, `k` successes of `n`, at confidence 1 − alpha:
 /// the set of p that neither one-sided test at alpha/2 rejects.
@@ -27,36 +28,12 @@ fn lower_bound(k: u32, n: u32, alpha: Alpha) -> (f64, f64) {
         let ln_p = ln_tail / f64::from(n);
         return (ln_p.exp(), -ln_p.exp_m1());
     }
-    // The logit keeps p and 1 − p both precise, and the log tail is nearly straight in it. At ±800
-    // the log tail is under any alpha's and above it.
-    let (mut low, mut high) = (-800.0_f64, 800.0_f64);
-    let mut logit = (f64::from(k) / f64::from(n - k)).ln() - 2.0 / f64::from(k).sqrt();
-    for _ in 0..200 {
-        let x = Binomial::from_logit(n, logit);
-        let ln_upper = x.upper_tail(k).ln();
-        let excess = ln_upper - ln_tail;
-        if excess < 0.0 {
-            low = logit;
-        } else {
-            high = logit;
-        }
-        // d/dp P(X ≥ k) = k P(X = k) / p, and dp/dlogit = p q.
-        let slope = f64::from(k) * x.q() * (x.ln_pmf(k) - ln_upper).exp();
-        let newton = logit - excess / slope;
-        // NaN (no slope) is outside too.
-        let next = if newton > low && newton < high {
-            newton
-        } else {
-            f64::midpoint(low, high)
-        };
-        let step = (next - logit).abs();
-        logit = next;
-        if step <= 1e-15 * logit.abs().max(1.0) {
-            break;
-        }
-    }
-    let x = Binomial::from_logit(n, logit);
-    (x.p(), x.q())
+    // P(X ≥ k) = I_p(k, n − k + 1); the logit keeps p and 1 − p both precise.
+    let Some(beta) = Beta::new(f64::from(k), f64::from(n - k) + 1.0) else {
+        return (0.0, 1.0);
+    };
+    let logit = beta.lower_quantile(ln_tail);
+    (logistic(logit), logistic(-logit))
 }
 
 #[cfg(test)]

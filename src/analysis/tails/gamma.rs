@@ -5,11 +5,11 @@
 
 use std::f64::consts::PI;
 
+use super::Probability;
 use super::elementary::exp_minus;
-use super::newton::{self, Tail};
+use super::newton::{self, Tail, normal_start};
 use super::saddle_point::{deviance, ln_gamma, stirling_error};
 use super::tail_integral::{Exponent, tail_integral};
-use super::{Probability, complement, normal_start};
 
 /// Up to this a the power series has some 200 terms at most.
 const SERIES_SHAPE: f64 = 400.0;
@@ -52,52 +52,59 @@ impl Gamma {
 
     /// ln P(a, x); `excess` = a − x, which the caller may know better than the subtraction.
     pub fn ln_lower(&self, x: f64, excess: f64) -> f64 {
-        if x <= 0.0 {
-            f64::NEG_INFINITY
-        } else if x == f64::INFINITY {
-            0.0
-        } else if excess >= 0.0 {
-            self.ln_short_lower(x, excess)
-        } else {
-            complement(self.ln_short_upper(x, excess))
-        }
+        self.lower(x, excess).ln
     }
 
     /// ln Q(a, x).
     pub fn ln_upper(&self, x: f64, excess: f64) -> f64 {
-        if x <= 0.0 {
-            0.0
-        } else if x == f64::INFINITY {
-            f64::NEG_INFINITY
-        } else if excess < 0.0 {
-            self.ln_short_upper(x, excess)
+        self.upper(x, excess).ln
+    }
+
+    /// ln P(a, x) and its slopes along ln x.
+    fn lower(&self, x: f64, excess: f64) -> Tail {
+        if x <= 0.0 || x == f64::INFINITY {
+            return Tail {
+                ln: if x <= 0.0 { f64::NEG_INFINITY } else { 0.0 },
+                slope: 0.0,
+                density_slope: excess,
+            };
+        }
+        let ln_density = self.ln_density(x, excess);
+        if excess >= 0.0 {
+            Tail::short(ln_density, self.lower_per_density(x, excess), excess)
         } else {
-            complement(self.ln_short_lower(x, excess))
+            Tail::long(ln_density, upper_per_density(x, excess), excess)
         }
     }
 
-    /// x ≤ a.
-    fn ln_short_lower(&self, x: f64, excess: f64) -> f64 {
+    /// ln Q(a, x) and its slopes along −ln x.
+    fn upper(&self, x: f64, excess: f64) -> Tail {
+        if x <= 0.0 || x == f64::INFINITY {
+            return Tail {
+                ln: if x <= 0.0 { 0.0 } else { f64::NEG_INFINITY },
+                slope: 0.0,
+                density_slope: -excess,
+            };
+        }
         let ln_density = self.ln_density(x, excess);
+        if excess < 0.0 {
+            Tail::short(ln_density, upper_per_density(x, excess), -excess)
+        } else {
+            Tail::long(ln_density, self.lower_per_density(x, excess), -excess)
+        }
+    }
+
+    /// P(a, x) over the density at x ≤ a.
+    fn lower_per_density(&self, x: f64, excess: f64) -> f64 {
         if self.a <= SERIES_SHAPE {
-            return ln_density + (self.series(x) / self.a).ln();
+            return self.series(x) / self.a;
         }
         let exponent = GammaExponent {
             x,
             excess,
             way: -1.0,
         };
-        ln_density + tail_integral(&exponent, f64::INFINITY).0.ln()
-    }
-
-    /// x ≥ a.
-    fn ln_short_upper(&self, x: f64, excess: f64) -> f64 {
-        let exponent = GammaExponent {
-            x,
-            excess,
-            way: 1.0,
-        };
-        self.ln_density(x, excess) + tail_integral(&exponent, f64::INFINITY).0.ln()
+        tail_integral(&exponent, f64::INFINITY).0
     }
 
     /// ln of x^a e^−x / Γ(a).
@@ -131,13 +138,7 @@ impl Gamma {
         let start = (a * root.max(0.1).powi(3)).ln();
         let minus_ln_x = newton::solve(ln_tail, -start, |minus_s| {
             let x = (-minus_s).exp();
-            let excess = a - x;
-            let ln = self.ln_upper(x, excess);
-            Tail {
-                ln,
-                slope: (self.ln_density(x, excess) - ln).exp(),
-                density_slope: -excess,
-            }
+            self.upper(x, a - x)
         });
         (-minus_ln_x).exp()
     }
@@ -145,19 +146,25 @@ impl Gamma {
     /// The x with ln P(a, x) = `ln_tail`, which is at most about ln ½.
     pub fn lower_quantile(&self, ln_tail: f64) -> f64 {
         let a = self.a;
-        let start = a.ln() - normal_start(ln_tail) / a.sqrt();
-        newton::solve(ln_tail, start, |s| {
+        // The normal's quantile at the mode's width, or the power that the far tail is like, x^a / Γ(a + 1).
+        let bell = a.ln() - normal_start(ln_tail) / a.sqrt();
+        let power = (ln_tail + ln_gamma(a + 1.0)) / a;
+        newton::solve(ln_tail, bell.max(power), |s| {
             let x = s.exp();
-            let excess = a - x;
-            let ln = self.ln_lower(x, excess);
-            Tail {
-                ln,
-                slope: (self.ln_density(x, excess) - ln).exp(),
-                density_slope: excess,
-            }
+            self.lower(x, a - x)
         })
         .exp()
     }
+}
+
+/// Q(a, x) over the density at x ≥ a.
+fn upper_per_density(x: f64, excess: f64) -> f64 {
+    let exponent = GammaExponent {
+        x,
+        excess,
+        way: 1.0,
+    };
+    tail_integral(&exponent, f64::INFINITY).0
 }
 
 /// By how much the log density falls from x on u further out, down (way −1) or up (+1).

@@ -26,19 +26,23 @@ fn ln_upper(z: f64) -> f64 {
     if z == f64::INFINITY {
         f64::NEG_INFINITY
     } else if z < 2.5 {
-        // P(0 < Z < z) = φ(z) Σ z^(2i+1) / (1·3·5…(2i+1)).
-        let (mut term, mut sum, mut odd) = (z, 0.0, 1.0);
-        while term > sum * 1e-18 {
-            sum += term;
-            odd += 2.0;
-            term *= z * z / odd;
-        }
-        (0.5 - ln_density(z).exp() * sum).ln()
+        (0.5 - ln_density(z).exp() * central_series(z)).ln()
     } else {
         // 60 levels give 17 digits at 2.5 and more above.
         let tail = (1..=60).rev().fold(z, |tail, i| z + f64::from(i) / tail);
         ln_density(z) - tail.ln()
     }
+}
+
+/// P(0 < Z < z) / φ(z) = Σ z^(2i+1) / (1·3·5…(2i+1)).
+fn central_series(z: f64) -> f64 {
+    let (mut term, mut sum, mut odd) = (z, 0.0, 1.0);
+    while term > sum * 1e-18 {
+        sum += term;
+        odd += 2.0;
+        term *= z * z / odd;
+    }
+    sum
 }
 
 /// ln φ(z).
@@ -51,6 +55,9 @@ fn ln_density(z: f64) -> f64 {
 pub fn normal_quantile(tail: f64) -> Option<f64> {
     if !(tail > 0.0 && tail <= 0.5) {
         return None;
+    }
+    if tail > 0.25 {
+        return Some(central_quantile(0.5 - tail));
     }
     // ½ e^(−z²/2) bounds the tail from above, so this start is right of the root, and from there
     // Newton on the concave log tail comes down to it without overshooting.
@@ -65,6 +72,22 @@ pub fn normal_quantile(tail: f64) -> Option<f64> {
         }
     }
     Some(z)
+}
+
+/// The z ≥ 0 with P(0 < Z < z) = `central`, at most ¼. Near the middle this keeps the digits that the
+/// tail, near ½, does not show.
+fn central_quantile(central: f64) -> f64 {
+    // The density falls, so this start is left of the root and Newton does not pass it.
+    let mut z = central / ln_density(0.0).exp();
+    for _ in 0..100 {
+        let density = ln_density(z).exp();
+        let step = (central - density * central_series(z)) / density;
+        z += step;
+        if step.abs() <= 1e-16 * z {
+            break;
+        }
+    }
+    z
 }
 
 /// The z of a two-sided interval at confidence 1 − alpha (1.96 for alpha = 0.05).

@@ -74,10 +74,14 @@ fn stirling_series(x: f64) -> f64 {
         / x
 }
 
-/// ln Γ(x) for x > 0.
+/// ln Γ(x) for x > 0. +∞ where x is not positive, as the integral is; NaN never.
 #[must_use]
 pub fn ln_gamma(x: f64) -> f64 {
-    libm::lgamma(x)
+    if x > 0.0 {
+        libm::lgamma(x)
+    } else {
+        f64::INFINITY
+    }
 }
 
 /// ln B(a, b) = ln Γ(a) + ln Γ(b) − ln Γ(a + b) for a, b > 0, by Stirling's formula with its error, so that

@@ -3,7 +3,8 @@
 use std::f64::consts::LN_2;
 
 use super::beta::{Beta, Point};
-use super::{Alpha, Probability, complement, normal_quantile, normal_upper};
+use super::elementary::complement;
+use super::{Alpha, Probability, normal_quantile, normal_upper};
 
 /// With more degrees of freedom the quantile is the normal's to all digits: they part by
 /// (z² + 1)/(4 df), relative, and z is at most 38.
@@ -37,7 +38,7 @@ fn ln_upper(t: f64, df: f64) -> f64 {
     let point = Point {
         x,
         y,
-        ln_odds: -2.0 * ratio.ln(),
+        ln_odds: df.ln() - 2.0 * t.ln(),
         // Near t = 1, a and (a + b) x may be large and equal but for this.
         excess: if odds <= 1.0 {
             0.5 * (t - 1.0) * (t + 1.0) * x

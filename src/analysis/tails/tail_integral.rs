@@ -38,7 +38,7 @@ pub fn tail_integral(exponent: &impl Exponent, end: f64) -> (f64, f64) {
         let (slope, curvature) = exponent.slopes(from);
         let slope = slope.max(0.0);
         // slope h + curvature h²/2 = FALL.
-        let width = 2.0 * FALL / (slope + (slope * slope + 2.0 * FALL * curvature).sqrt());
+        let width = 2.0 * FALL / (slope + slope.hypot((2.0 * FALL * curvature).sqrt()));
         let width = width.min(LONGEST).min(end - from);
         let half = 0.5 * width;
         let middle = from + half;
