@@ -231,6 +231,10 @@ pub(super) fn factor_text(log10: f64) -> String {
 /// Jeffreys' grades (1961, appendix B): half powers of ten.
 #[must_use]
 pub fn category(log10: f64) -> &'static str {
+    // Rounding may leave a factor of 1 a digit off.
+    if log10.abs() < 1e-12 {
+        return "none either way";
+    }
     let grade = (log10.abs() * 2.0).floor().min(4.0);
     match (log10 >= 0.0, grade as u32) {
         (true, 0) => "barely worth mentioning, for a preference",

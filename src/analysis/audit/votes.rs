@@ -45,7 +45,7 @@ fn correction(test: &ConditionTest, data: &Dataset, settings: &Settings) -> Chec
     let before = ids(data, |i, _| corrected(i).is_ok() && at_most(family.p[i]));
     let after = ids(data, |i, _| at_most(corrected(i)));
     let mut finding = format!(
-        "of {} at most alpha = {} uncorrected: {}; with Holm's correction: {}",
+        "{}; p at most alpha = {} uncorrected: {}; with Holm's correction: {}",
         plural(family.size(), "test"),
         settings.alpha.get(),
         named(&before),

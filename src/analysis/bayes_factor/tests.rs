@@ -77,6 +77,7 @@ fn no_votes_have_no_factor_and_a_billion_have_one() {
 
 #[test]
 fn the_words_are_jeffreys() {
+    assert_eq!(category(-1e-17), "none either way");
     assert_eq!(category(0.49), "barely worth mentioning, for a preference");
     assert_eq!(category(0.5), "substantial for a preference");
     assert_eq!(category(-1.2), "strong for an even split");
