@@ -25,6 +25,9 @@ pub struct Bootstrap {
     values: Vec<Vec<Vec<f64>>>,
 }
 
+/// A component's values in a resample and how they were fitted; `None` where it fell apart.
+type Refitted = Option<(Vec<f64>, Method)>;
+
 /// Participants' votes on end: a vote is twice its pair's number, one more where j was preferred.
 struct Votes {
     ends: Vec<usize>,
@@ -107,7 +110,7 @@ pub fn run(
         return None;
     }
     watch.begin("bootstrap", u64::from(settings.bootstrap));
-    let replicates: Vec<Vec<Option<(Vec<f64>, Method)>>> = (0..settings.bootstrap)
+    let replicates: Vec<Vec<Refitted>> = (0..settings.bootstrap)
         .into_par_iter()
         .map(|replicate| {
             let pairs = votes.resample(settings.seed, u64::from(replicate), &table.pairs);
@@ -123,7 +126,7 @@ pub fn run(
 }
 
 /// A component's values in a resample; `None` where it falls apart.
-fn refit(original: &Component, pairs: &[Pair]) -> Option<(Vec<f64>, Method)> {
+fn refit(original: &Component, pairs: &[Pair]) -> Refitted {
     let mine: Vec<Pair> = pairs
         .iter()
         .filter(|pair| pair.votes() > 0 && original.members.binary_search(&pair.i).is_ok())
@@ -154,7 +157,7 @@ fn is_connected(members: &[usize], pairs: &[Pair]) -> bool {
         .all(|label| *label == 0)
 }
 
-fn gather(replicates: &[Vec<Option<(Vec<f64>, Method)>>], components: &[Component]) -> Bootstrap {
+fn gather(replicates: &[Vec<Refitted>], components: &[Component]) -> Bootstrap {
     let mut values: Vec<Vec<Vec<f64>>> = components
         .iter()
         .map(|component| vec![Vec::new(); component.members.len()])

@@ -141,7 +141,7 @@ fn too_few_resamples_give_no_interval() {
 #[test]
 fn participants_without_an_answer_are_not_drawn() {
     let mut data = answered(10, &TRIANGLE, |participant, pair| {
-        (participant as usize + pair) % 3 == 0
+        (participant as usize + pair).is_multiple_of(3)
     });
     let before = report_with(&data, &settings(100, 1));
     data.participants.push("late".into());
