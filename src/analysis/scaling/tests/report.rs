@@ -4,25 +4,11 @@ use super::*;
 use crate::analysis::input::{Options, read};
 
 fn thesis() -> Dataset {
-    let path = std::path::Path::new(file!())
-        .ancestors()
-        .map(|dir| dir.join("stimuli/thesis-2010-votes.csv"))
-        .chain(
-            std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
-                .ancestors()
-                .map(|dir| dir.join("stimuli/thesis-2010-votes.csv")),
-        )
-        .find(|path| path.exists());
-    path.map_or_else(
-        || {
-            counted(&[
-                ("crytek24", "blizzard24", 47, 61),
-                ("none", "blizzard24", 46, 62),
-                ("blizzard8", "ray-march30", 16, 20),
-            ])
-        },
-        |path| read(&[path], Options::default()).unwrap(),
-    )
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("votes.csv");
+    let votes = include_str!("../../../../stimuli/thesis-2010-votes.csv");
+    std::fs::write(&path, votes).unwrap();
+    read(&[path], Options::default()).unwrap()
 }
 
 /// Two techniques were compared only with each other: two scales, each with its own zero.

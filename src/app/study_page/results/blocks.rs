@@ -38,13 +38,7 @@ impl Shown {
                 Face::Figure(texture, caption)
             }
             Piece::Plain(Block::Table(block)) => {
-                let columns = &block.table.columns;
-                let row = |row: &Vec<_>| {
-                    let cells = row.iter().zip(columns);
-                    cells.map(|(cell, column)| shown(cell, column.style))
-                };
-                let rows = block.table.rows.iter();
-                let cells = rows.map(|one| row(one).collect()).collect();
+                let cells = cells(&block);
                 Face::Table(Rows { block, cells })
             }
             Piece::Plain(block) => Face::Plain(block),
@@ -73,6 +67,20 @@ impl Shown {
             ui.add_space(8.0);
         }
     }
+}
+
+fn cells(block: &TableBlock) -> Vec<Vec<String>> {
+    let columns = &block.table.columns;
+    let mut rows = Vec::new();
+    for row in &block.table.rows {
+        let cells = row.iter().zip(columns);
+        rows.push(
+            cells
+                .map(|(cell, column)| shown(cell, column.style))
+                .collect(),
+        );
+    }
+    rows
 }
 
 impl Face {
