@@ -56,7 +56,7 @@ fn close_ln(left: f64, right: f64) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// The smaller of a and b is right of zero, and neither is NaN.
+/// left ≤ right, beyond rounding.
 fn not_above(left: Probability, right: Probability) -> Result<(), TestCaseError> {
     let allowed = 1e-12_f64.max(1e-13 * right.ln().abs());
     prop_assert!(
