@@ -171,12 +171,8 @@ impl Svg {
         self.height = height;
     }
 
-    /// The element, titled for people who cannot see it.
-    pub fn finish(self, title: &str) -> String {
-        self.element("", title, "")
-    }
-
-    /// The element with a style and a background of its own, good as a file, too. The style is
+    /// The element, titled for people who cannot see it, with a style and a background of its own,
+    /// good as a file, too. The style is
     /// to keep to what is inside `class`: in a page it reaches everything.
     pub fn finish_alone(self, class: &str, title: &str, style: &str) -> String {
         let size = (n(self.width), n(self.height));
@@ -334,7 +330,7 @@ mod tests {
         );
         let mut svg = Svg::new(10.0, 10.0);
         svg.text("x", 1.0, 1.125, Anchor::Start, "</text><b>");
-        let text = svg.finish("</title>");
+        let text = svg.finish_alone("x", "</title>", "");
         assert!(
             !text.contains("<b>") && !text.contains("</title></title>"),
             "{text}"

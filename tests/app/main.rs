@@ -6,6 +6,7 @@
 mod browser;
 mod procedures;
 mod replay;
+mod results_page;
 mod same_rows;
 mod session;
 mod start_page;
