@@ -16,13 +16,20 @@ pub mod table;
 pub mod tails;
 
 pub mod benjamini_hochberg;
+pub mod blocks;
 pub mod chi_square;
 pub mod clopper_pearson;
+pub mod cumulative_link;
 pub mod effect_size;
 pub mod exact_binomial;
+pub mod friedman;
 pub mod holm;
 pub mod mcnemar;
 pub mod position_bias;
+mod rank_tests;
+pub mod rankings;
+pub mod ratings;
+pub mod wilcoxon;
 pub mod wilson;
 
 pub use dataset::Dataset;

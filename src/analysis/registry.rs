@@ -2,8 +2,8 @@
 
 use super::statistic::{About, ConditionStatistic, Correction, StudyStatistic};
 use super::{
-    benjamini_hochberg, chi_square, clopper_pearson, effect_size, exact_binomial, holm, mcnemar,
-    position_bias, wilson,
+    benjamini_hochberg, chi_square, clopper_pearson, cumulative_link, effect_size, exact_binomial,
+    friedman, holm, mcnemar, position_bias, rankings, ratings, wilson,
 };
 
 /// Statistics of one condition.
@@ -20,7 +20,15 @@ pub const CONDITION_STATISTICS: &[ConditionStatistic] = &[
 pub const CORRECTIONS: &[Correction] = &[holm::CORRECTION, benjamini_hochberg::CORRECTION];
 
 /// Statistics of the whole study.
-pub const STUDY_STATISTICS: &[StudyStatistic] = &[position_bias::POOLED, mcnemar::STATISTIC];
+pub const STUDY_STATISTICS: &[StudyStatistic] = &[
+    position_bias::POOLED,
+    mcnemar::STATISTIC,
+    rankings::STATISTIC,
+    ratings::STATISTIC,
+];
+
+/// What those of ratings and rankings compute beside what they are named for.
+const PARTS: &[About] = &[friedman::ABOUT, cumulative_link::ABOUT];
 
 /// What each of them is, without repetition.
 #[must_use]
@@ -30,7 +38,8 @@ pub fn abouts() -> Vec<About> {
         .iter()
         .map(|statistic| statistic.about)
         .chain(CORRECTIONS.iter().map(|correction| correction.about))
-        .chain(STUDY_STATISTICS.iter().map(|statistic| statistic.about));
+        .chain(STUDY_STATISTICS.iter().map(|statistic| statistic.about))
+        .chain(PARTS.iter().copied());
     for about in every {
         if !all.contains(&about) {
             all.push(about);
