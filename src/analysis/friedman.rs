@@ -16,7 +16,7 @@ pub const ABOUT: About = About {
 };
 
 /// With more sums of ranks to go through than this the exact distribution is left alone.
-const MOST_STEPS: usize = 2_000_000;
+const MOST_STEPS: usize = 1_500_000;
 /// Techniques of which all orders can be gone through.
 const MOST_TECHNIQUES: usize = 6;
 
@@ -109,7 +109,12 @@ pub fn friedman(blocks: &Blocks) -> Result<Friedman, Undefined> {
 fn exact(ranks: &[u32], k: usize, between: i128) -> Result<Probability, Undefined> {
     const TOO_MANY: Undefined =
         Undefined::not_available("too many arrangements for the exact distribution");
-    if k > MOST_TECHNIQUES {
+    let n = ranks.len() / k;
+    // Without ties the sums over i blocks are k^(k − 2) i^(k − 1) points of a lattice at first order
+    // (Stanley 1980), of which one in k! is looked at, k! times, for every i to n.
+    let (size, power) = (k as f64, i32::try_from(k).unwrap_or(i32::MAX));
+    let steps = size.powi(power - 3) * (n as f64).powi(power);
+    if k > MOST_TECHNIQUES || steps > MOST_STEPS as f64 {
         return Err(TOO_MANY);
     }
     let mut sorted: Vec<Vec<u32>> = ranks
@@ -121,45 +126,53 @@ fn exact(ranks: &[u32], k: usize, between: i128) -> Result<Probability, Undefine
         })
         .collect();
     sorted.sort_unstable();
-    let mut states: Vec<([u32; MOST_TECHNIQUES], f64)> = vec![([0; MOST_TECHNIQUES], 1.0)];
+    let mut states = vec![(0, 1.0)];
     let mut steps = 0;
     for alike in sorted.chunk_by(|one, other| one == other) {
-        let orders = orders(&alike[0]);
+        let orders: Vec<u64> = orders(&alike[0]).iter().map(|order| pack(order)).collect();
         let chance = 1.0 / orders.len() as f64;
         for _ in alike {
             steps += states.len() * orders.len();
-            if steps > MOST_STEPS {
+            // Ties make the lattice finer.
+            if steps > 4 * MOST_STEPS {
                 return Err(TOO_MANY);
             }
             states = step(&states, &orders, chance, k);
         }
     }
-    let mean = (ranks.len() / k * (k + 1)) as i128;
-    let square = |sums: &[u32; MOST_TECHNIQUES]| -> i128 {
-        let sums = sums[..k].iter();
-        sums.map(|&sum| (i128::from(sum) - mean).pow(2)).sum()
-    };
-    let reached = states.iter().filter(|(sums, _)| square(sums) >= between);
+    let mean = (n * (k + 1)) as i128;
+    let reached = states.iter().filter(|(sums, _)| {
+        let squares = unpack(*sums, k).map(|sum| (i128::from(sum) - mean).pow(2));
+        squares.sum::<i128>() >= between
+    });
     let p: f64 = reached.map(|(_, chance)| chance).sum();
     Ok(Probability::from_ln(p.min(1.0).ln()))
 }
 
+/// The sums of k ≤ [`MOST_TECHNIQUES`] techniques in one word, 64/k bits each; [`MOST_STEPS`] keeps the
+/// blocks so few that they fit.
+fn pack(sums: &[u32]) -> u64 {
+    let bits = 64 / sums.len();
+    let at = |(i, &sum): (usize, &u32)| u64::from(sum) << (i * bits);
+    sums.iter().enumerate().map(at).sum()
+}
+
+fn unpack(packed: u64, k: usize) -> impl Iterator<Item = u64> {
+    let bits = 64 / k;
+    (0..k).map(move |i| packed >> (i * bits) & ((1 << bits) - 1))
+}
+
 /// One block more.
-fn step(
-    states: &[([u32; MOST_TECHNIQUES], f64)],
-    orders: &[Vec<u32>],
-    chance: f64,
-    k: usize,
-) -> Vec<([u32; MOST_TECHNIQUES], f64)> {
+fn step(states: &[(u64, f64)], orders: &[u64], chance: f64, k: usize) -> Vec<(u64, f64)> {
     let mut next = Vec::with_capacity(states.len() * orders.len());
     for (sums, before) in states {
         for order in orders {
-            let mut sums = *sums;
-            for (sum, rank) in sums.iter_mut().zip(order) {
-                *sum += rank;
+            let mut sorted = [0_u32; MOST_TECHNIQUES];
+            for (sum, given) in sorted.iter_mut().zip(unpack(sums + order, k)) {
+                *sum = given as u32;
             }
-            sums[..k].sort_unstable();
-            next.push((sums, before * chance));
+            sorted[..k].sort_unstable();
+            next.push((pack(&sorted[..k]), before * chance));
         }
     }
     // Stable, so that chances are added in the same order everywhere.

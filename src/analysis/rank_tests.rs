@@ -57,11 +57,19 @@ pub fn correct<'a>(p: impl Iterator<Item = &'a mut Result<Probability, Undefined
 /// The test that the main result rests on: of the participants' means over all conditions, or of
 /// the one condition there is.
 pub fn main_test(tested: &[Tested]) -> Option<&Tested> {
-    let of_all = |it: &&Tested| it.blocks.unit == Unit::ParticipantMeans;
-    match tested {
-        [only] => Some(only),
-        several => several.iter().find(of_all),
-    }
+    let main = |it: &&Tested| is_main(&it.blocks, tested.len());
+    tested.iter().find(main)
+}
+
+/// That test alone.
+pub fn only_main_test(mut all: Vec<Blocks>) -> Option<Tested> {
+    let several = all.len();
+    all.retain(|blocks| is_main(blocks, several));
+    test(all).pop()
+}
+
+fn is_main(blocks: &Blocks, of: usize) -> bool {
+    of == 1 || blocks.unit == Unit::ParticipantMeans
 }
 
 /// Columns of the table of tests, behind those that name the row.

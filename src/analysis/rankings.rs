@@ -24,7 +24,10 @@ pub const STATISTIC: StudyStatistic = StudyStatistic {
 
 fn section(context: &Context<'_>) -> Option<Section> {
     let Context { data, settings, .. } = *context;
-    let tested = tested(data)?;
+    let tested = rank_tests::test(rank_blocks(data));
+    if tested.is_empty() {
+        return None;
+    }
     let rankings = &data.rankings;
     let pairs: Vec<Pair> = tested.iter().flat_map(compare).collect();
     let mut findings: Vec<String> = main_test(&tested)
@@ -69,13 +72,12 @@ fn section(context: &Context<'_>) -> Option<Section> {
 /// The main result in one sentence.
 #[must_use]
 pub fn main_result(data: &Dataset, settings: &Settings) -> Option<String> {
-    let tested = tested(data)?;
-    let main = main_test(&tested)?;
+    let main = rank_tests::only_main_test(rank_blocks(data))?;
     let conditions = &data.rankings.conditions;
-    Some(rank_tests::sentence(main, "ranks", conditions, settings))
+    Some(rank_tests::sentence(&main, "ranks", conditions, settings))
 }
 
-fn tested(data: &Dataset) -> Option<Vec<Tested>> {
+fn rank_blocks(data: &Dataset) -> Vec<Blocks> {
     let rankings = &data.rankings;
     let values: Vec<Value> = (rankings.answers.iter())
         .map(|it| Value {
@@ -85,12 +87,11 @@ fn tested(data: &Dataset) -> Option<Vec<Tested>> {
             value: f64::from(it.rank),
         })
         .collect();
-    let all = blocks(
+    blocks(
         &values,
         rankings.conditions.len(),
         rankings.techniques.len(),
-    );
-    (!all.is_empty()).then(|| rank_tests::test(all))
+    )
 }
 
 fn means(tested: &[Tested], data: &Dataset) -> Table {

@@ -88,11 +88,10 @@ fn section(context: &Context<'_>) -> Option<Section> {
 #[must_use]
 pub fn main_results(data: &Dataset, settings: &Settings) -> Vec<String> {
     let sentence = |scale| {
-        let tested = rank_tests::test(scale_blocks(data, scale));
-        let main = main_test(&tested)?;
+        let main = rank_tests::only_main_test(scale_blocks(data, scale))?;
         let conditions = &data.ratings.conditions;
         Some(rank_tests::sentence(
-            main,
+            &main,
             &what(data, scale),
             conditions,
             settings,
