@@ -4,6 +4,8 @@ use super::chi_square::FEWEST_VOTES;
 use super::conditions::{Family, Verdict, main_family, tests};
 use super::dataset::{Dataset, Rank};
 use super::holm;
+use super::rankings;
+use super::ratings;
 use super::settings::Settings;
 use super::tails::Probability;
 
@@ -19,11 +21,14 @@ pub fn p_text(p: Probability) -> String {
 }
 
 /// The main result: who answered, what differs from an even split before and after Holm. Of
-/// ratings and rankings their sections say what was found.
+/// ratings and rankings: whether they differ between the techniques.
 #[must_use]
 pub fn sentences(data: &Dataset, settings: &Settings) -> Vec<String> {
     if data.conditions.is_empty() {
-        return judged(data).into_iter().collect();
+        let mut sentences: Vec<String> = judged(data).into_iter().collect();
+        sentences.extend(rankings::main_result(data, settings));
+        sentences.extend(ratings::main_results(data, settings));
+        return sentences;
     }
     let mut sentences = vec![who(data)];
     let tested = main_family(data, settings).size();

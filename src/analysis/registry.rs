@@ -3,8 +3,8 @@
 use super::statistic::{About, AnswerStatistic, ConditionStatistic, Correction, StudyStatistic};
 use super::{
     audit, bayes_factor, benjamini_hochberg, chi_square, clopper_pearson, cochran_q, consistency,
-    effect_size, exact_binomial, holm, mcnemar, order_effect, position_bias, response_times,
-    scaling, sequential, wilson,
+    cumulative_link, effect_size, exact_binomial, friedman, holm, mcnemar, order_effect,
+    position_bias, rankings, ratings, response_times, scaling, sequential, wilson,
 };
 
 /// Statistics of one condition.
@@ -35,8 +35,13 @@ pub const STUDY_STATISTICS: &[StudyStatistic] = &[
     response_times::STATISTIC,
     scaling::STATISTIC,
     consistency::STATISTIC,
+    rankings::STATISTIC,
+    ratings::STATISTIC,
     audit::STATISTIC,
 ];
+
+/// What those of ratings and rankings compute beside what they are named for.
+const PARTS: &[About] = &[friedman::ABOUT, cumulative_link::ABOUT];
 
 /// What each of them is, without repetition.
 #[must_use]
@@ -47,7 +52,8 @@ pub fn abouts() -> Vec<About> {
         .map(|statistic| statistic.about)
         .chain(ANSWER_STATISTICS.iter().map(|statistic| statistic.about))
         .chain(CORRECTIONS.iter().map(|correction| correction.about))
-        .chain(STUDY_STATISTICS.iter().map(|statistic| statistic.about));
+        .chain(STUDY_STATISTICS.iter().map(|statistic| statistic.about))
+        .chain(PARTS.iter().copied());
     for about in every {
         if !all.contains(&about) {
             all.push(about);
