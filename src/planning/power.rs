@@ -1,8 +1,8 @@
 //! Power of the tests of one condition's votes against an even split, exactly: the probability that
 //! the votes fall where the test rejects, summed over those votes.
 //!
-//! Source: A. Agresti (2013), Categorical Data Analysis, 3rd ed., sections 1.4.4 and 16.6.1, on
-//! exact tests of a proportion and their discreteness.
+//! Source: A. Agresti (2013), Categorical Data Analysis, 3rd ed., section 1.4, on exact inference for a
+//! proportion; M. R. Chernick, C. Y. Liu (2002), The American Statistician 56(2), 149–155, on its power.
 
 use crate::analysis::tails::{Alpha, Binomial, Probability, chi_square_upper, two_sided_even};
 

@@ -93,6 +93,8 @@ pub struct ConditionOutcome {
     /// Uncorrected power by summation over the plan's orders; `None` where drop-outs' answers
     /// count, which makes the orders random.
     pub exact: Option<f64>,
+    /// Share of technique b that the plan's orders lead to on average; `None` likewise.
+    pub expected_share: Option<f64>,
 }
 
 /// All studies of one set of assumptions.
@@ -210,17 +212,15 @@ fn condition_outcome(study: &Study<'_>, index: usize, results: &[StudyResult]) -
     let of_order = |which: fn((u32, u32)) -> u32| mean(&|it| f64::from(which(it.orders.orders())));
     let assumed = &study.assumptions;
     let orders_are_planned = assumed.drop_out == 0.0 || assumed.leave_out_incomplete;
-    let exact = orders_are_planned.then(|| {
-        let (a_then_b, b_then_a) = study.planned_orders(index);
-        let orders = Orders {
-            p: assumed.p,
-            bias: assumed.order_bias,
-            participant_sd: assumed.participant_sd,
-            a_then_b,
-            b_then_a,
-        };
-        orders.power(Test::Exact, assumed.alpha).value()
-    });
+    let (a_then_b, b_then_a) = study.planned_orders(index);
+    let orders = Orders {
+        p: assumed.p,
+        bias: assumed.order_bias,
+        participant_sd: assumed.participant_sd,
+        a_then_b,
+        b_then_a,
+    };
+    let exact = || orders.power(Test::Exact, assumed.alpha).value();
     ConditionOutcome {
         id: condition.id.clone(),
         techniques: [0, 1].map(|i| condition.techniques.get(i).cloned().unwrap_or_default()),
@@ -230,7 +230,8 @@ fn condition_outcome(study: &Study<'_>, index: usize, results: &[StudyResult]) -
         answers: mean(&|it| f64::from(it.orders.votes().total())),
         share_b: mean(&|it| it.orders.votes().share_b().unwrap_or(0.5)),
         orders: (of_order(|(ab, _)| ab), of_order(|(_, ba)| ba)),
-        exact,
+        exact: orders_are_planned.then(exact),
+        expected_share: orders_are_planned.then(|| orders.mean_share()),
     }
 }
 

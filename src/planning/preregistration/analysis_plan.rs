@@ -33,9 +33,12 @@ impl Study<'_> {
         );
         line(out, "### Exploratory and secondary analyses");
         for text in self.secondary() {
-            item(out, &text);
+            item(out, text);
         }
-        out.push('\n');
+        line(
+            out,
+            "\nThese are not of the family that is corrected; their p-values are reported as exploratory.",
+        );
     }
 
     fn main_analysis(&self) -> Vec<String> {
@@ -55,7 +58,7 @@ impl Study<'_> {
         let alpha = self.facts.analysis.alpha.get();
         match self.asked {
             Asked::Choice => vec![
-                format!("Main analysis. For each condition, the votes for its two techniques are tested against an even split by the exact binomial test, two-sided. The p-values are corrected by Holm's (1979) procedure over the family of {family}, at alpha = {alpha}. A hypothesis is supported by a condition that asks it if the corrected p is at most alpha and more votes are on the side it names."),
+                format!("Main analysis. For each condition, the votes for its two techniques are tested against an even split by the exact binomial test, two-sided. The p-values are corrected by Holm's (1979) procedure over the family of {family}, at alpha = {alpha}. A condition supports the hypothesis it asks if the corrected p is at most alpha and, where the hypothesis names a side, more votes are on that side."),
                 "Reported for every condition, significant or not: both counts, the share of technique b with its Clopper–Pearson and Wilson intervals, Cohen's g, the exact p before and after the correction.".to_owned(),
             ],
             Asked::Ratings => vec![format!(
@@ -99,28 +102,25 @@ impl Study<'_> {
         );
     }
 
-    fn secondary(&self) -> Vec<String> {
-        let mut said = Vec::new();
+    fn secondary(&self) -> &'static [&'static str] {
         match self.asked {
-            Asked::Choice => said.extend([
+            Asked::Choice => &[
                 "Position bias: how often the image shown first is chosen, over all trials, by participant and by condition, by the exact binomial test; and how even the orders were.",
                 "Order: whether the choice depends on which technique was shown first (Cochran–Mantel–Haenszel over the conditions).",
                 "The same participants in two conditions of one pair of techniques: McNemar's exact test.",
                 "The techniques on one scale: Bradley–Terry and Thurstone case V (in just-objectionable differences), where the pairs connect them, with standard errors and goodness of fit.",
                 "The chi-square test of each condition beside the exact one, for comparison with earlier studies.",
                 "Response times on a logarithmic scale, by condition and position.",
-            ]),
-            Asked::Ratings => said.extend([
+            ],
+            Asked::Ratings => &[
                 "Agreement between participants, and outlying ones.",
                 "Response times on a logarithmic scale, by condition and position.",
-            ]),
-            Asked::Ranking => said.extend([
+            ],
+            Asked::Ranking => &[
                 "The versions on one scale: Bradley–Terry on the pairs that the rank orders imply, which are not independent within a participant, so that its standard errors are a lower bound.",
                 "Agreement between participants (Kendall's W), and outlying ones.",
                 "Response times on a logarithmic scale, by condition and position.",
-            ]),
+            ],
         }
-        said.push("These are not of the family that is corrected; their p-values are reported as exploratory.");
-        said.into_iter().map(str::to_owned).collect()
     }
 }

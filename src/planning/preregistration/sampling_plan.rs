@@ -79,28 +79,28 @@ impl Study<'_> {
         let places = balance.evenness(Aspect::Position).range;
         let positions = u32::try_from(self.main.len()).unwrap_or(u32::MAX);
         let each = full * block / positions.max(1);
-        text += &format!(
-            "A condition will have stood at a position {} to {} times",
-            each + places.low,
-            each + places.high
-        );
+        let (low, high) = (each + places.low, each + places.high);
+        let times = match high - low {
+            0 => format!("{low}"),
+            1 => format!("{low} or {high}"),
+            _ => format!("{low} to {high}"),
+        };
+        text += &format!("Each condition will stand at each position {times} times");
         if self.asked == Asked::Choice {
             let reversed = balance.evenness(Aspect::InnerOrder).range;
-            let (low, high) = (
-                full * block / 2 + reversed.low,
-                full * block / 2 + reversed.high,
-            );
+            let half = full * block / 2;
+            let (low, high) = (half + reversed.low, half + reversed.high);
             text += &match low == high {
                 true => format!(
-                    ", and each pair reversed {low} times and in its base order {} times",
+                    ", and each pair is reversed {low} times and in its base order {} times. A preference for the image shown first does not cancel altogether, and is tested and reported.",
                     planned - low
                 ),
-                false => format!(", and a pair reversed {low} to {high} times of {planned}"),
+                false => format!(", and each pair is reversed {low} to {high} times of {planned}."),
             };
+        } else {
+            text.push('.');
         }
-        Ok(
-            text + ". A preference for the image shown first therefore does not cancel altogether; it is tested and reported."
-        )
+        Ok(text)
     }
 
     fn rationale(&self, planned: u32, out: &mut String) {

@@ -166,20 +166,25 @@ fn what_is_laid_down_is_said_word_for_word() {
     }
 }
 
-/// Three conditions here: a block of six, 36 of them fill it.
+/// Eight conditions here: a block of 16.
 #[test]
 fn power_and_blocks_are_those_of_the_planned_number() {
     let text = written(PROTOCOLS[0].1, |_| {});
     assert!(text.contains("| 0.65 | 0.356 |"), "{text}");
-    assert!(text.contains("6 full blocks of 6"), "{text}");
-    let fewer = PROTOCOLS[0]
+    // 32 in two blocks; the four more are all in base order.
+    for part in [
+        "no multiple of a full block of 16",
+        "after 2 full blocks 4 are left over, and 48 would fill the next",
+        "each pair is reversed 16 times and in its base order 20 times",
+    ] {
+        assert!(text.contains(part), "{part:?} in\n{text}");
+    }
+    let full = PROTOCOLS[0]
         .1
-        .replace("planned_participants = 36", "planned_participants = 34");
-    let text = written(&fewer, |_| {});
-    assert!(text.contains("no multiple of a full block of 6"), "{text}");
-    // 30 in five blocks; of the four more three are in base order and one reversed.
+        .replace("planned_participants = 36", "planned_participants = 32");
+    let text = written(&full, |_| {});
     assert!(
-        text.contains("reversed 16 times and in its base order 18 times"),
+        text.contains("2 full blocks of 16: every condition"),
         "{text}"
     );
 }

@@ -40,7 +40,7 @@ impl Simulated {
                 title: "Power of each condition",
                 status: Status::Ok,
                 findings: vec![
-                    "Share of studies in which the condition is significant, with its 95 % interval (Clopper–Pearson: a matter of how many studies were simulated). \"exact\" is the power without correction summed over the orders that the plan shows.".to_owned(),
+                    "Share of studies in which the condition is significant, with its 95\u{a0}% interval (Clopper–Pearson: a matter of how many studies were simulated). \"exact\" is the power without correction summed over the orders that the plan shows.".to_owned(),
                 ],
                 tables: vec![SectionTable {
                     id: "conditions",
@@ -88,24 +88,28 @@ impl Simulated {
 
     /// How uneven the orders are, and what a bias makes of that.
     fn order_finding(&self) -> Option<String> {
-        let imbalance = |it: &ConditionOutcome| (it.orders.0 - it.orders.1).abs();
-        let by_imbalance =
-            |a: &&ConditionOutcome, b: &&ConditionOutcome| imbalance(a).total_cmp(&imbalance(b));
-        let worst = self.effect.conditions.iter().max_by(by_imbalance)?;
-        if imbalance(worst) < 0.5 {
+        let imbalance = |it: &&ConditionOutcome| (it.orders.0 - it.orders.1).abs();
+        let conditions = self.effect.conditions.iter();
+        let worst = conditions.max_by(|a, b| imbalance(a).total_cmp(&imbalance(b)))?;
+        if imbalance(&worst) < 0.5 {
             return Some("Every condition is seen equally often in both orders.".to_owned());
         }
+        let alike = |it: &ConditionOutcome| it.orders == worst.orders;
+        let place = match self.effect.conditions.iter().all(alike) {
+            true => "in every condition".to_owned(),
+            false => format!("most in {}", worst.id),
+        };
         let null = self.null.conditions.iter().find(|it| it.id == worst.id)?;
         let bias = match self.assumptions.order_bias == 0.0 {
             true => String::new(),
             false => format!(
                 " With this bias that makes a share of b of {:.3} on average where nobody prefers either.",
-                null.share_b
+                null.expected_share.unwrap_or(null.share_b)
             ),
         };
         Some(format!(
-            "The two orders are uneven, most in {}: {:.1} participants see a first, {:.1} see b first.{bias}",
-            worst.id, worst.orders.0, worst.orders.1
+            "The two orders are uneven, {place}: {:.1} participants see a first, {:.1} see b first.{bias}",
+            worst.orders.0, worst.orders.1
         ))
     }
 
@@ -172,12 +176,12 @@ impl Simulated {
         };
         let findings = vec![
             format!(
-                "With the preference assumed, Holm finds {:.1} % of the conditions on average; the image shown first is chosen in {:.1} % of the trials.",
+                "With the preference assumed, Holm finds {:.1}\u{a0}% of the conditions on average; the image shown first is chosen in {:.1}\u{a0}% of the trials.",
                 100.0 * self.effect.each_holm,
                 100.0 * self.effect.chose_first,
             ),
             format!(
-                "Where nobody prefers either technique, at least one condition is significant after Holm in {:.2} % of the studies: the family-wise error, {verdict} alpha = {alpha}.",
+                "Where nobody prefers either technique, at least one condition is significant after Holm in {:.2}\u{a0}% of the studies: the family-wise error, {verdict} alpha = {alpha}.",
                 100.0 * family_wise.share(),
             ),
         ];
@@ -215,9 +219,11 @@ fn marginal(assumed: &Assumptions, outcome: &Outcome) -> Option<String> {
         return None;
     }
     let count = outcome.conditions.len().max(1) as f64;
-    let mean: f64 = outcome.conditions.iter().map(|it| it.share_b).sum::<f64>() / count;
+    let shares = outcome.conditions.iter();
+    let shares = shares.map(|it| it.expected_share.unwrap_or(it.share_b));
+    let mean = shares.sum::<f64>() / count;
     Some(format!(
-        "Over these orders and participants, b is chosen in {:.1} % of the answers: a bias and participants who differ pull a share towards one half.",
+        "Over these orders and participants, b is chosen in {:.1}\u{a0}% of the answers: a bias and participants who differ pull a share towards one half.",
         100.0 * mean
     ))
 }

@@ -1,18 +1,21 @@
 //! What stands behind an observer's colon: a seed, then options as `KEY=VALUE` after commas. Messages
 //! say what is needed, as the end of a sentence.
 
+/// Keys and values.
+type Given<'a> = Vec<(&'a str, &'a str)>;
+
 /// The seed, and the options in the order given, none twice. `example` and `keys` are for the message.
 pub(super) fn split<'a>(
     argument: &'a str,
     example: &str,
     keys: &str,
-) -> Result<(u64, Vec<(&'a str, &'a str)>), String> {
+) -> Result<(u64, Given<'a>), String> {
     let mut parts = argument.split(',');
     let seed = parts.next().unwrap_or_default();
     let seed = seed.parse().map_err(|_| {
         format!("a whole number from 0 behind the colon, then options such as {example} ({keys}) after commas; not {seed:?}")
     })?;
-    let mut given: Vec<(&str, &str)> = Vec::new();
+    let mut given = Given::new();
     for part in parts {
         let (key, value) = part
             .split_once('=')
