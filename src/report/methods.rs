@@ -20,7 +20,7 @@ const OF_SECTIONS: &[(&str, &str)] = &[
     ),
     (
         "cochran_q",
-        "Three or more conditions of the same two techniques were compared within participants by Cochran's (1950) Q.",
+        "Three or more conditions of the same two techniques were compared within participants by Cochran's (1950) Q, exactly where its distribution could be enumerated.",
     ),
     (
         "bayes_factor",
@@ -32,7 +32,7 @@ const OF_SECTIONS: &[(&str, &str)] = &[
     ),
     (
         "response_times",
-        "Response times were analysed by their logarithms.",
+        "Response times were analysed by their logarithms: geometric means with t intervals, a one-sample t test of each participant's difference between choosing the first and the second image, and Friedman's test between conditions.",
     ),
     (
         "scaling",
@@ -40,15 +40,15 @@ const OF_SECTIONS: &[(&str, &str)] = &[
     ),
     (
         "consistency",
-        "Consistency of the observers was judged by circular triads and the coefficient of agreement (Kendall & Babington Smith, 1940).",
+        "Each observer's answers were compared with those of the others, and where all pairs of a scene were judged, consistency was measured by circular triads and the coefficient of agreement (Kendall & Babington Smith, 1940); nobody was left out for it.",
     ),
     (
         "rankings",
-        "Rank orders were compared by Friedman's (1937) test with Kendall's W.",
+        "Rank orders were compared by Friedman's (1937) test, over several conditions with each participant's mean ranks, by its exact permutation distribution where that could be enumerated and Iman & Davenport's (1980) F elsewhere, with Kendall's W; pairs of techniques by exact sign tests, corrected by Holm.",
     ),
     (
         "ratings",
-        "Ratings were compared by rank tests within participants, and by a proportional-odds model (McCullagh, 1980).",
+        "Ratings were compared by Friedman's (1937) test within participants, pairs of techniques by Wilcoxon's (1945) signed-rank test, corrected by Holm, and all techniques by a proportional-odds model (McCullagh, 1980) with standard errors clustered by participant (Liang & Zeger, 1986).",
     ),
 ];
 

@@ -26,6 +26,7 @@ mod text;
 pub use files::{ReportFile, files};
 
 use crate::analysis::Analysis;
+use crate::analysis::table::Table;
 
 /// How to write a report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,8 +63,18 @@ pub fn render(analysis: &Analysis, format: Format) -> Result<String, ReportError
     match format {
         Format::Text => Ok(text::render(analysis)),
         Format::Json => json::render(analysis),
-        Format::Csv => csv::render(&analysis.conditions),
+        Format::Csv => csv::render(main_table(analysis)),
         Format::Html => Ok(html::render(analysis)),
+    }
+}
+
+/// The table of conditions; of ratings and rankings, which have none, the first of their section.
+fn main_table(analysis: &Analysis) -> &Table {
+    let tables = analysis.sections.iter().flat_map(|section| &section.tables);
+    let of_judgements = || tables.map(|part| &part.table).next();
+    match analysis.conditions.rows.is_empty() {
+        true => of_judgements().unwrap_or(&analysis.conditions),
+        false => &analysis.conditions,
     }
 }
 

@@ -54,7 +54,7 @@ fn draw(analysis: &Analysis) -> Option<Drawing> {
         }
         for row in shown
             .iter()
-            .filter(|row| row.text("component") == component)
+            .filter(|row| row.label("component") == component)
         {
             estimate(&mut sheet.svg, &panel, *row, y + ROW / 2.0);
             y += ROW;
