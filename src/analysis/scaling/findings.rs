@@ -1,5 +1,7 @@
 //! The section in sentences.
 
+use std::collections::BTreeSet;
+
 use super::goodness::misfit;
 use super::graph;
 use super::link::{Link, PROBIT_OF_JOD};
@@ -47,6 +49,7 @@ pub(super) fn all(scaling: &Scaling, context: &Context<'_>) -> Vec<String> {
         }
     }
     found.extend(order_effect(scaling, context));
+    found.extend(pooled(context));
     found.extend(one_scale(scaling, context));
     found.push(uncertainty(scaling, context));
     found
@@ -274,6 +277,26 @@ fn one_scale(scaling: &Scaling, context: &Context<'_>) -> Option<String> {
         test.df,
         p_text(test.p)
     ))
+}
+
+/// What a scale over several conditions means, where one pair of techniques was compared in more
+/// than one.
+fn pooled(context: &Context<'_>) -> Option<String> {
+    let conditions = &context.data.conditions;
+    let pairs: BTreeSet<[&str; 2]> = (conditions.iter())
+        .map(|condition| {
+            let mut pair = [
+                condition.technique_a.as_str(),
+                condition.technique_b.as_str(),
+            ];
+            pair.sort_unstable();
+            pair
+        })
+        .collect();
+    (pairs.len() < conditions.len()).then(|| {
+        "Votes of all conditions that compare the same two techniques are pooled: where the preference depends on the scene or its light, the scale is an average over those that were shown."
+            .to_owned()
+    })
 }
 
 fn uncertainty(scaling: &Scaling, context: &Context<'_>) -> String {
