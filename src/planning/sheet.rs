@@ -18,7 +18,7 @@ pub const SHARES: [f64; 6] = [0.55, 0.60, 0.65, 0.70, 0.75, 0.80];
 const ROWS: u32 = 10;
 
 const NO_EFFECT: Undefined =
-    Undefined::degenerate("no number of participants up to 10 000 000 gives this power");
+    Undefined::degenerate("no effect, or one so small that a million answers may not find it");
 const NEVER: Undefined =
     Undefined::degenerate("even if everybody chose the same technique the power would be less");
 const NO_SPLIT: Undefined = Undefined::degenerate("even all votes one way are not significant");
