@@ -4,10 +4,9 @@
 //! Source: A. Agresti (2013), Categorical Data Analysis, 3rd ed., section 1.4, on exact inference for a
 //! proportion; M. R. Chernick, C. Y. Liu (2002), The American Statistician 56(2), 149–155, on its power.
 
-use crate::analysis::tails::{Alpha, Binomial, Probability, chi_square_upper, two_sided_even};
-
-/// Most participants that anything here is computed for: as far as the binomial tails are tested.
-pub const MOST_PARTICIPANTS: u32 = 10_000_000;
+use crate::analysis::tails::{
+    Alpha, Binomial, Probability, chi_square_upper, normal_critical, two_sided_even,
+};
 
 /// A test of a : b votes against an even split, two-sided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -62,8 +61,7 @@ impl Test {
         if n == 0 || !rejects(0) {
             return None;
         }
-        // Rejects at low, does not at high: an even split has p = 1.
-        let (mut low, mut high) = (0, n / 2 + 1);
+        let (mut low, mut high) = around(n, alpha, rejects);
         while high - low > 1 {
             let middle = low + (high - low) / 2;
             if rejects(middle) {
@@ -105,6 +103,37 @@ impl Test {
             }
         }
         Some(high)
+    }
+}
+
+/// A count at which a test that rejects at 0 rejects, and one at which it does not: found from where
+/// the normal approximation puts the critical count, in growing steps.
+fn around(n: u32, alpha: Alpha, rejects: impl Fn(u32) -> bool) -> (u32, u32) {
+    let (trials, most) = (f64::from(n), n / 2 + 1);
+    let guess = 0.5 * (trials - normal_critical(alpha) * trials.sqrt());
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // from 0 to n/2
+    let guess = guess.clamp(0.0, f64::from(most - 1)) as u32;
+    let mut step = 1;
+    if rejects(guess) {
+        let mut low = guess;
+        loop {
+            // An even split has p = 1: at `most` nothing rejects.
+            let next = low.saturating_add(step).min(most);
+            if next == most || !rejects(next) {
+                return (low, next);
+            }
+            low = next;
+            step *= 2;
+        }
+    }
+    let mut high = guess;
+    loop {
+        let next = high.saturating_sub(step);
+        if next == 0 || rejects(next) {
+            return (next, high);
+        }
+        high = next;
+        step *= 2;
     }
 }
 

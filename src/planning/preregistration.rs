@@ -7,7 +7,7 @@ mod analysis_plan;
 mod design_plan;
 mod sampling_plan;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use crate::analysis::tails::Alpha;
@@ -92,7 +92,7 @@ struct Study<'a> {
     asked: Asked,
     /// Conditions of the main part, in the set's order.
     main: Vec<&'a Condition>,
-    /// Of them, how many are of the family.
+    /// Tests of the family that is corrected for.
     family: u32,
 }
 
@@ -109,17 +109,22 @@ impl<'a> Study<'a> {
             .iter()
             .filter(|it| !protocol.names(&it.id))
             .collect();
-        let of_family = main
-            .iter()
-            .filter(|it| facts.analysis.family.is_empty() || facts.analysis.family.contains(&it.id))
-            .count();
+        let declared = &facts.analysis.family;
+        let tests = match asked {
+            // One test a scene and scale, over its versions.
+            Asked::Ratings => views(&main) * protocol.scales.len(),
+            Asked::Choice | Asked::Ranking => {
+                let of_family = |it: &&&Condition| declared.is_empty() || declared.contains(&it.id);
+                main.iter().filter(of_family).count()
+            }
+        };
         Self {
             facts,
             protocol,
             plan,
             asked,
             main,
-            family: u32::try_from(of_family.max(1)).unwrap_or(u32::MAX),
+            family: u32::try_from(tests.max(1)).unwrap_or(u32::MAX),
         }
     }
 
@@ -223,6 +228,16 @@ impl<'a> Study<'a> {
             "Every answer is on disk before the next screen is shown; no row is changed or removed afterwards.",
         );
     }
+}
+
+/// How many scenes, each in one light, single images show: their ids end with the technique.
+fn views(singles: &[&Condition]) -> usize {
+    let view = |it: &&Condition| {
+        let technique = it.techniques.first().map_or("", String::as_str);
+        let id = it.id.strip_suffix(technique).unwrap_or(&it.id);
+        id.to_owned()
+    };
+    singles.iter().map(view).collect::<BTreeSet<_>>().len()
 }
 
 /// A paragraph or heading.

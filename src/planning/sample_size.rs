@@ -15,8 +15,12 @@
 //! W. Hoeffding (1963), Journal of the American Statistical Association 58, 13–30, theorem 1.
 
 use super::family::Holm;
-use super::power::{MOST_PARTICIPANTS, Region, Test, both, tail_down, tail_up};
+use super::power::{Region, Test, both, tail_down, tail_up};
 use crate::analysis::tails::{Alpha, normal_critical};
+
+/// Answers (participants times conditions) up to which a power that is certain is looked for: beyond
+/// what anybody plans. One condition with p = 0.503 takes 220 000, and is certain from 570 000.
+const MOST_ANSWERS: u32 = 1_000_000;
 
 /// What is to happen with a given probability.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -110,8 +114,8 @@ impl Question {
         self.least(n, n)
     }
 
-    /// The numbers of participants for a power; `None` where there is none up to
-    /// [`MOST_PARTICIPANTS`], as for an effect of nothing.
+    /// The numbers of participants for a power; `None` for an effect of nothing, or one so small
+    /// that a million answers are not certain to be enough.
     #[must_use]
     pub fn sample_size(&self, target: f64) -> Option<SampleSize> {
         let certain = self.certain_from(target)?;
@@ -145,8 +149,9 @@ impl Question {
         };
         let root = (width + (-miss.ln() / 2.0).sqrt()) / delta;
         let n = (root * root).ceil() + 1.0;
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // between 1 and 10⁷
-        (n <= f64::from(MOST_PARTICIPANTS)).then_some(n as u32)
+        let most = f64::from(MOST_ANSWERS / self.conditions.max(1));
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // between 1 and 10⁶
+        (n <= most).then_some(n as u32)
     }
 
     /// Down from `certain`: the last n that falls short, plus one.
@@ -157,9 +162,18 @@ impl Question {
             if self.least(end, end) < target {
                 break;
             }
-            // How far down the stretch that ends there is surely enough; least(·, end) falls with
-            // a longer stretch.
-            let (mut short, mut enough) = (0, end);
+            // How far down the stretch that ends there is surely enough: least(·, end) falls with
+            // a longer stretch, so steps grow until it falls short.
+            let (mut short, mut enough, mut step) = (0, end, 1);
+            while enough > step {
+                let next = enough - step;
+                if self.least(next, end) < target {
+                    short = next;
+                    break;
+                }
+                enough = next;
+                step *= 2;
+            }
             while enough - short > 1 {
                 let middle = short + (enough - short) / 2;
                 if self.least(middle, end) >= target {
@@ -180,7 +194,16 @@ impl Question {
             if self.most(start, start) >= target {
                 return start;
             }
-            let (mut short, mut enough) = (start, stable);
+            let (mut short, mut enough, mut step) = (start, stable, 1);
+            while short + step < stable {
+                let next = short + step;
+                if self.most(start, next) >= target {
+                    enough = next;
+                    break;
+                }
+                short = next;
+                step *= 2;
+            }
             while enough - short > 1 {
                 let middle = short + (enough - short) / 2;
                 if self.most(start, middle) < target {

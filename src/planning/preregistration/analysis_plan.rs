@@ -62,10 +62,12 @@ impl Study<'_> {
                 "Reported for every condition, significant or not: both counts, the share of technique b with its Clopper–Pearson and Wilson intervals, Cohen's g, the exact p before and after the correction.".to_owned(),
             ],
             Asked::Ratings => vec![format!(
-                "Main analysis. For each scene and each scale, the versions are compared by Friedman's test on the participants' ratings, with Kendall's W as its effect size; the p-values are corrected by Holm's (1979) procedure over the scenes and scales, at alpha = {alpha}. Where it is significant, pairs of versions are compared, Holm-corrected. Means, medians and their intervals are reported for every version, significant or not."
+                "Main analysis. For each scene and each scale, the versions are compared by Friedman's test on the participants' ratings, with Kendall's W as its effect size; the p-values are corrected by Holm's (1979) procedure over all scenes and scales ({} tests), at alpha = {alpha}. Where it is significant, pairs of versions are compared, Holm-corrected. Means, medians and their intervals are reported for every version, significant or not.",
+                self.family
             )],
             Asked::Ranking => vec![format!(
-                "Main analysis. For each scene, the participants' rank orders of its versions are compared by Friedman's test, with Kendall's W as its effect size; the p-values are corrected by Holm's (1979) procedure over the scenes, at alpha = {alpha}. Where it is significant, pairs of versions are compared, Holm-corrected. Mean ranks are reported for every version, significant or not."
+                "Main analysis. For each scene, the participants' rank orders of its versions are compared by Friedman's test, with Kendall's W as its effect size; the p-values are corrected by Holm's (1979) procedure over all {} scenes, at alpha = {alpha}. Where it is significant, pairs of versions are compared, Holm-corrected. Mean ranks are reported for every version, significant or not.",
+                self.family
             )],
         }
     }

@@ -107,7 +107,7 @@ impl Study<'_> {
         let of = match self.asked {
             Asked::Choice => "the exact binomial test of one condition (two-sided)",
             Asked::Ratings | Asked::Ranking => {
-                "a sign test between two versions of a scene, the plainest comparison the data hold (two-sided, everybody preferring one of them)"
+                "a sign test between two versions of a scene (two-sided, ties left out), the plainest comparison the data hold,"
             }
         };
         let question = |p, criterion| Question {

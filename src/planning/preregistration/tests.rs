@@ -189,6 +189,14 @@ fn power_and_blocks_are_those_of_the_planned_number() {
     );
 }
 
+/// Four scenes on two scales.
+#[test]
+fn ratings_are_tested_once_a_scene_and_scale() {
+    let text = written(PROTOCOLS[3].1, |_| {});
+    assert!(text.contains("all scenes and scales (8 tests)"), "{text}");
+    assert!(text.contains("family of 8,"), "{text}");
+}
+
 #[test]
 fn hypotheses_and_rules_of_the_protocol_are_taken_over() {
     let text = written(PROTOCOLS[4].1, |facts| {

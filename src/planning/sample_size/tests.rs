@@ -31,18 +31,20 @@ fn blocks_are_filled_up() {
     assert_eq!(size.in_blocks(90), 90);
 }
 
-/// An effect that takes half a million participants is found in the same way.
+/// An effect that takes eighty thousand participants is found in the same way.
 #[test]
 fn small_effects_are_found_too() {
-    let question = question(0.502, 1, Criterion::Uncorrected);
+    let question = question(0.505, 1, Criterion::Uncorrected);
     let size = question.sample_size(0.8).unwrap();
-    // The normal approximation, good to a thousandth here: ((1.96 + 0.8416 · 0.999992) / 0.004)².
-    let approximate = ((1.959_964 + 0.841_621) / 0.004_f64).powi(2);
+    // The normal approximation, ((1.96 + 0.8416 √(1 − 4 δ²)) / 2δ)² with δ = 0.005; one vote more or
+    // less is worth 1/δ participants.
+    let approximate = ((1.959_964 + 0.841_579) / 0.01_f64).powi(2);
     assert!(
-        (f64::from(size.stable) / approximate - 1.0).abs() < 2e-3,
+        (f64::from(size.stable) - approximate).abs() < 2.0 / 0.005,
         "{size:?}"
     );
     assert!(question.power(size.stable) >= 0.8 && question.power(size.stable - 1) < 0.8);
+    assert!(question.power(size.smallest) >= 0.8 && size.smallest < size.stable);
 }
 
 proptest! {

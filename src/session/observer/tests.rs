@@ -20,6 +20,7 @@ fn observers_are_named_as_on_the_command_line() {
     let random = observer("random:17").unwrap();
     assert_eq!(random.participant_id(3), "random17p0003");
     assert!(observer("first").is_ok());
+    assert!(observer("share:1,p=0.6,bias=-0.5").is_ok());
     assert_eq!(
         observer("model:5").unwrap().participant_id(1),
         "model5p0001"
