@@ -1,6 +1,5 @@
 //! `greyfield check FILE.toml`: a protocol, a set or a scene, without running anything.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::anyhow;
@@ -78,8 +77,8 @@ pub fn preregister(path: &Path, to: Option<&Path>) -> Result<(), Failure> {
             sha256: set.sha256,
             size_px: set.size_px,
         },
-        hypotheses: BTreeMap::new(),
-        analysis: AnalysisPlan::default(),
+        hypotheses: preregistration::hypotheses(&protocol),
+        analysis: AnalysisPlan::of(&protocol),
     };
     let text = preregistration::text(&facts).map_err(Failure::bad_input)?;
     Ok(output::write(to, text.as_bytes())?)

@@ -59,6 +59,32 @@ pub struct AnalysisPlan {
     pub minimum_main_trials: Option<u32>,
 }
 
+impl AnalysisPlan {
+    /// What a protocol lays down, the rest at its default.
+    #[must_use]
+    pub fn of(protocol: &Protocol) -> Self {
+        let plan = protocol.analysis.clone().unwrap_or_default();
+        let alpha = plan.alpha.map(|alpha| Alpha::try_from(alpha.get()));
+        Self {
+            // Every level a protocol may have is an alpha.
+            alpha: alpha.and_then(Result::ok).unwrap_or_default(),
+            family: plan.family,
+            minimum_response_ms: plan.minimum_response_ms.map(|ms| f64::from(ms.get())),
+            maximum_response_ms: plan.maximum_response_ms.map(|ms| f64::from(ms.get())),
+            exclude_failed_catch: plan.exclude_failed_catch,
+            minimum_main_trials: plan.minimum_main_trials.map(|count| count.get()),
+        }
+    }
+}
+
+/// The hypotheses of a protocol in its own words, by name.
+#[must_use]
+pub fn hypotheses(protocol: &Protocol) -> BTreeMap<String, String> {
+    let all = protocol.hypotheses.iter();
+    all.map(|(name, words)| (name.clone(), words.to_string()))
+        .collect()
+}
+
 /// The text, Markdown.
 ///
 /// # Errors

@@ -9,6 +9,7 @@ use super::{Power, number, probability};
 use crate::analysis::statistic::Watch;
 use crate::cli::{Failure, Verbosity, order};
 use crate::config::{self, quantity};
+use crate::planning::preregistration::AnalysisPlan;
 use crate::planning::simulate::{Assumptions, simulate};
 use crate::protocol::Protocol;
 use crate::report::{self, Format};
@@ -93,7 +94,7 @@ pub(super) fn run(
         },
         studies: wanted.studies.unwrap_or(1000),
         alpha: args.alpha,
-        family: Vec::new(),
+        family: AnalysisPlan::of(&protocol).family,
         seed: wanted.seed.unwrap_or(1),
     };
     let bar = Bar(verbosity.progress(2 * u64::from(assumptions.studies)));

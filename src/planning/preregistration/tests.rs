@@ -197,6 +197,24 @@ fn ratings_are_tested_once_a_scene_and_scale() {
     assert!(text.contains("family of 8,"), "{text}");
 }
 
+/// The protocol's own tables are what the text is made from.
+#[test]
+fn the_tables_of_a_protocol_are_read() {
+    let text = format!(
+        "{}\n[hypotheses]\nH9 = \"Something else.\"\n[analysis]\nalpha = 0.01\nminimum_response_ms = 250\n",
+        PROTOCOLS[1].1
+    );
+    let protocol = Protocol::parse(Path::new("p.toml"), &text).unwrap();
+    assert_eq!(hypotheses(&protocol)["H9"], "Something else.");
+    let plan = AnalysisPlan::of(&protocol);
+    assert!((plan.alpha.get() - 0.01).abs() < 1e-15);
+    assert_eq!(plan.minimum_response_ms, Some(250.0));
+    assert_eq!(plan.maximum_response_ms, None);
+    let thesis = Protocol::parse(Path::new("t.toml"), PROTOCOLS[0].1).unwrap();
+    let names: Vec<String> = hypotheses(&thesis).into_keys().collect();
+    assert_eq!(names, ["H1", "H2", "H3"]);
+}
+
 #[test]
 fn hypotheses_and_rules_of_the_protocol_are_taken_over() {
     let text = written(PROTOCOLS[4].1, |facts| {
