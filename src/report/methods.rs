@@ -71,7 +71,7 @@ pub fn paragraphs(analysis: &Analysis) -> Vec<String> {
     let bootstrap = match analysis.settings.bootstrap {
         0 => String::new(),
         resamples => format!(
-            "Bootstrap intervals are percentiles of {resamples} resamples of the participants (seed {}). ",
+            "Bootstrap intervals are expanded percentile intervals (Hesterberg, 2015) from {resamples} resamples of the participants (seed {}). ",
             analysis.settings.seed
         ),
     };

@@ -58,7 +58,7 @@ impl Shown {
                 ui.set_min_width(ui.available_width());
                 ui.push_id(at, |ui| {
                     let title = if title.is_empty() { "Result" } else { title };
-                    ui.label(RichText::new(title).strong());
+                    ui.label(RichText::new(title).size(22.0));
                     for (at, face) in faces.iter().enumerate() {
                         ui.push_id(at, |ui| face.ui(ui));
                     }

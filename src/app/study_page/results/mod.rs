@@ -60,7 +60,7 @@ impl Results {
     pub fn ui(&mut self, ui: &mut Ui) {
         theme::card().show(ui, |ui| {
             ui.set_min_width(ui.available_width());
-            ui.label(RichText::new("Before you look").strong());
+            ui.label(RichText::new("Before you look").size(22.0));
             ui.label(PEEKING);
             if !self.is_open && ui.button("Show the results").clicked() {
                 self.is_open = true;
