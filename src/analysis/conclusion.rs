@@ -121,9 +121,12 @@ fn of_test(name: &str, family: &Family, data: &Dataset, settings: &Settings) -> 
     let alpha = settings.alpha.get();
     let tested = family.size();
     let Some(found) = some_of(&before) else {
+        let none = match tested {
+            1 => "the condition does not differ".to_owned(),
+            _ => format!("none of {} differs", plural(tested, "condition")),
+        };
         return format!(
-            "By the {name} none of {} differs from an even split at alpha = {alpha}, even before correction.",
-            plural(tested, "condition"),
+            "By the {name} {none} from an even split at alpha = {alpha}, even before correction."
         );
     };
     match some_of(&after) {

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::document::{Block, Part, document};
 use super::number::{align_decimals, reasons, shown, width};
 use crate::analysis::Analysis;
+use crate::analysis::conclusion::plural;
 use crate::analysis::statistic::Section;
 use crate::analysis::table::{Style, Table};
 
@@ -51,11 +52,8 @@ fn write_block(out: &mut String, block: Block) {
         // Formulas stand in the page and in the JSON report.
         Block::Figure(_) | Block::Terms(_) => {}
         Block::Table(block) if block.folded => {
-            let rows = block.table.rows.len();
-            paragraph(
-                out,
-                &format!("{}: {rows} rows, in the page.", block.caption),
-            );
+            let rows = plural(block.table.rows.len(), "row");
+            paragraph(out, &format!("{}: {rows}, in the page.", block.caption));
         }
         Block::Table(block) => {
             out.push('\n');

@@ -151,8 +151,12 @@ impl TryFrom<f64> for Alpha {
     type Error = String;
 
     fn try_from(value: f64) -> Result<Self, String> {
-        crate::config::quantity::check(value, 1e-300, 0.999, "")?;
-        Ok(Self(value))
+        if (1e-300..=0.999).contains(&value) {
+            return Ok(Self(value));
+        }
+        Err(format!(
+            "found {value}, a number from 1e-300 to 0.999 is needed"
+        ))
     }
 }
 
