@@ -1,5 +1,9 @@
 //! Percentile intervals over resampled participants, which hold where answers of one participant
 //! hang together: B. Efron, R. J. Tibshirani (1993), An Introduction to the Bootstrap, ch. 13.
+//!
+//! Plain percentiles are too short for few participants, as an interval of a mean would be with z for t and n
+//! for n − 1 in the variance. Their levels are moved outwards by both: T. C. Hesterberg (2015), The
+//! American Statistician 69(4), 371–386, section 5.2, the expanded percentile interval.
 
 use rayon::prelude::*;
 
@@ -9,7 +13,7 @@ use super::scale::{Component, Method, component};
 use crate::analysis::dataset::Dataset;
 use crate::analysis::statistic::Context;
 use crate::analysis::table::{Interval, Undefined};
-use crate::analysis::tails::Alpha;
+use crate::analysis::tails::{Alpha, normal_upper, student_t_critical};
 use crate::seed;
 
 /// Resamples, by replicate: for every technique its value on its component's scale.
@@ -17,6 +21,8 @@ use crate::seed;
 pub struct Bootstrap {
     /// How many were drawn.
     pub replicates: usize,
+    /// Of how many participants.
+    pub participants: usize,
     /// How many needed Firth's penalty in some component.
     pub penalised: usize,
     /// How many left techniques unconnected, by component.
@@ -122,7 +128,7 @@ pub fn run(
             fitted
         })
         .collect();
-    Some(gather(&replicates, components))
+    Some(gather(votes.participants(), &replicates, components))
 }
 
 /// A component's values in a resample; `None` where it falls apart.
@@ -157,7 +163,11 @@ fn is_connected(members: &[usize], pairs: &[Pair]) -> bool {
         .all(|label| *label == 0)
 }
 
-fn gather(replicates: &[Vec<Refitted>], components: &[Component]) -> Bootstrap {
+fn gather(
+    participants: usize,
+    replicates: &[Vec<Refitted>],
+    components: &[Component],
+) -> Bootstrap {
     let mut values: Vec<Vec<Vec<f64>>> = components
         .iter()
         .map(|component| vec![Vec::new(); component.members.len()])
@@ -184,6 +194,7 @@ fn gather(replicates: &[Vec<Refitted>], components: &[Component]) -> Bootstrap {
     }
     Bootstrap {
         replicates: replicates.len(),
+        participants,
         penalised,
         broken,
         values,
@@ -202,26 +213,73 @@ impl Bootstrap {
         alpha: Alpha,
     ) -> Result<Interval, Undefined> {
         let sorted = &self.values[component][place];
-        if (sorted.len() as f64) * alpha.get() < 2.0 {
-            return Err(Undefined::not_available(
-                "too few resamples for the ends of the interval",
-            ));
-        }
-        Ok(Interval {
-            low: quantile(sorted, alpha.get() / 2.0),
-            high: quantile(sorted, 1.0 - alpha.get() / 2.0),
-        })
+        let too_few = Undefined::not_available("too few resamples for the ends of the interval");
+        let tail = expanded_tail(self.participants, alpha).ok_or(too_few)?;
+        let low = quantile(sorted, tail).ok_or(too_few)?;
+        let high = quantile(sorted, 1.0 - tail).ok_or(too_few)?;
+        Ok(Interval { low, high })
     }
 }
 
-/// The quantile of sorted values by linear interpolation, the definition 7 of R. J. Hyndman, Y. Fan
-/// (1996), The American Statistician 50(4), 361–365. 0 without values.
-fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let Some(last) = sorted.len().checked_sub(1) else {
-        return 0.0;
-    };
-    let at = share * last as f64;
-    let below = (at.floor() as usize).min(last);
+/// The share of resamples beyond either end: Φ(−t √(n/(n − 1))), t the two-sided critical value with n − 1
+/// degrees of freedom. `None` for one participant.
+fn expanded_tail(participants: usize, alpha: Alpha) -> Option<f64> {
+    let n = participants as f64;
+    let t = student_t_critical(alpha, n - 1.0)?;
+    Some(normal_upper(t * (n / (n - 1.0)).sqrt()).value())
+}
+
+/// The quantile of sorted values by linear interpolation, the definition 6 of R. J. Hyndman, Y. Fan
+/// (1996), The American Statistician 50(4), 361–365: one more value falls below it with the probability `share`
+/// exactly, so that few resamples do not shorten the interval. `None` where it is beyond the outermost value.
+fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
+    let at = share * (sorted.len() as f64 + 1.0) - 1.0;
+    let last = sorted.len().checked_sub(1)?;
+    // 1 − share was rounded.
+    let slack = 1e-9 * sorted.len() as f64;
+    if at < -slack || at > last as f64 + slack {
+        return None;
+    }
+    let at = at.clamp(0.0, last as f64);
+    let below = at.floor() as usize;
     let above = (below + 1).min(last);
-    sorted[below] + (at - below as f64) * (sorted[above] - sorted[below])
+    Some(sorted[below] + (at - below as f64) * (sorted[above] - sorted[below]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// R 4.2: `pnorm(-qt(1 - alpha/2, n - 1) * sqrt(n / (n - 1)))`.
+    #[test]
+    fn few_participants_move_the_levels_outwards() {
+        for (n, alpha, expected) in [
+            (5, 0.05, 0.000_954_100_551_882_491_6),
+            (20, 0.05, 0.015_880_829_920_347_96),
+            (20, 0.1, 0.038_027_205_853_879_86),
+            (36, 0.05, 0.019_751_659_291_132_78),
+            (60, 0.05, 0.021_801_790_933_923_39),
+        ] {
+            let alpha = Alpha::try_from(alpha).unwrap();
+            let tail = expanded_tail(n, alpha).unwrap();
+            assert!((tail - expected).abs() < 1e-12, "{n}: {tail}");
+        }
+        assert_eq!(expanded_tail(1, Alpha::FIVE_PERCENT), None);
+        // For large n: φ(z) ((z³ + z)/4 + z/2)/n less than α/2.
+        let many = expanded_tail(10_000_000, Alpha::FIVE_PERCENT).unwrap();
+        assert!((0.025 - many - 1.959_2e-8).abs() < 1e-11);
+    }
+
+    /// R 4.2: `quantile(x, type = 6)`.
+    #[test]
+    fn quantiles_are_those_of_definition_6() {
+        let sorted = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
+        for (share, expected) in [(0.1, 1.0), (0.25, 3.0), (0.33, 5.2), (0.9, 256.0)] {
+            let ours = quantile(&sorted, share).unwrap();
+            assert!((ours - expected).abs() < 1e-12, "{share}: {ours}");
+        }
+        assert_eq!(quantile(&sorted, 0.09), None);
+        assert_eq!(quantile(&sorted, 0.91), None);
+        assert_eq!(quantile(&[], 0.5), None);
+    }
 }

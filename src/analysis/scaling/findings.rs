@@ -305,8 +305,9 @@ fn uncertainty(scaling: &Scaling, context: &Context<'_>) -> String {
             .to_owned();
     };
     let mut text = format!(
-        "Bootstrap intervals come from {} of the participants (seed {}).",
+        "Bootstrap intervals are expanded percentiles of {} of the {} (seed {}).",
         plural(bootstrap.replicates, "resample"),
+        plural(bootstrap.participants, "participant"),
         context.settings.seed,
     );
     if bootstrap.penalised > 0 {

@@ -46,8 +46,8 @@ pub const STATISTIC: StudyStatistic = StudyStatistic {
         id: "scaling",
         name: "Thurstone case V (JOD) and Bradley–Terry scales",
         formula: "P(i preferred to j) = F(λᵢ − λⱼ), F normal (Thurstone; 1 JOD = 75 % preferred) or logistic (Bradley–Terry); maximum likelihood, the first technique is 0; order effect: logit P(first) = λ(first) − λ(second) + δ",
-        source: "L. L. Thurstone (1927), Psychological Review 34(4), 273–286; R. A. Bradley, M. E. Terry (1952), Biometrika 39(3/4), 324–345; existence: L. R. Ford (1957), American Mathematical Monthly 64(8), 28–33; JOD: M. Perez-Ortiz, R. K. Mantiuk (2017), arXiv:1712.03686; order effect: R. R. Davidson, R. J. Beaver (1977), Biometrics 33(4), 693–702; penalty: D. Firth (1993), Biometrika 80(1), 27–38, and I. Kosmidis, D. Firth (2021), Biometrika 108(1), 71–82",
-        validity: "connected comparisons; finite only where the win graph is strongly connected, else Firth's penalised estimate, marked so; standard errors are asymptotic and take votes as independent",
+        source: "L. L. Thurstone (1927), Psychological Review 34(4), 273–286; R. A. Bradley, M. E. Terry (1952), Biometrika 39(3/4), 324–345; existence: L. R. Ford (1957), American Mathematical Monthly 64(8), 28–33; JOD: M. Perez-Ortiz, R. K. Mantiuk (2017), arXiv:1712.03686; order effect: R. R. Davidson, R. J. Beaver (1977), Biometrics 33(4), 693–702; penalty: D. Firth (1993), Biometrika 80(1), 27–38, and I. Kosmidis, D. Firth (2021), Biometrika 108(1), 71–82; expanded percentiles: T. C. Hesterberg (2015), The American Statistician 69(4), 371–386",
+        validity: "connected comparisons; finite only where the win graph is strongly connected, else Firth's penalised estimate, marked so; standard errors are asymptotic and take votes as independent; intervals over resampled participants do not",
     },
     section,
 };
