@@ -24,7 +24,7 @@ pub(super) fn all(scaling: &Scaling, context: &Context<'_>) -> Vec<SectionTable>
     let mut tables = vec![
         shown(
             "jod",
-            "Thurstone case V in JOD (1 JOD = 75 % preferred), by component; intervals: Wald, and percentiles over resampled participants",
+            "Thurstone case V in JOD (1 JOD = 75 % preferred), by component; intervals: Wald, and expanded percentiles over resampled participants",
             scales::jod(scaling, context),
         ),
         shown(
