@@ -5,6 +5,13 @@ use serde::Serialize;
 use super::dataset::Dataset;
 use super::tails::Alpha;
 
+/// Resamples where nobody names a number: the usual order of magnitude for the ends of a 95 %
+/// interval (Efron & Tibshirani 1993, section 13.3, ask for 1000 at least).
+const RESAMPLES: u32 = 2000;
+
+/// With more participants than this the bootstrap is left to those who ask for it.
+const RESAMPLED_PARTICIPANTS: usize = 2000;
+
 /// Settings of one analysis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Settings {
@@ -32,13 +39,18 @@ impl Default for Settings {
 
 impl Settings {
     /// As the study's protocol declares them, where the input is its results folder; else the
-    /// defaults.
+    /// defaults. Where participants are known and not too many they are resampled: intervals that
+    /// take their answers for independent are too short where people differ.
     #[must_use]
     pub fn declared(data: &Dataset) -> Self {
         let declared = data.declared.as_ref();
         Self {
             alpha: declared.and_then(|it| it.alpha).unwrap_or_default(),
             family: declared.map_or_else(Vec::new, |it| it.family.clone()),
+            bootstrap: match data.participants.len() {
+                1..=RESAMPLED_PARTICIPANTS if data.has_answers() => RESAMPLES,
+                _ => 0,
+            },
             ..Self::default()
         }
     }

@@ -49,9 +49,10 @@ pub struct AnalyseArgs {
     /// the protocol has it, else all].
     #[arg(long, value_name = "IDS", value_delimiter = ',')]
     family: Vec<String>,
-    /// Resamples of the participants for bootstrap intervals of the scale.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
-    bootstrap: u32,
+    /// Resamples of the participants for bootstrap intervals of the scale; 0 for none [default:
+    /// 2000 for up to 2000 participants, else none].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    bootstrap: Option<u32>,
     /// Seed of the resamples.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -127,10 +128,12 @@ pub fn run(args: &AnalyseArgs, verbosity: Verbosity) -> Result<(), Failure> {
 /// What the command line says, then what the protocol declares.
 fn settings(args: &AnalyseArgs, data: &Dataset) -> Result<Settings, Failure> {
     let mut settings = Settings {
-        bootstrap: args.bootstrap,
         seed: args.seed,
         ..Settings::declared(data)
     };
+    if let Some(resamples) = args.bootstrap {
+        settings.bootstrap = resamples;
+    }
     if let Some(alpha) = args.alpha {
         settings.alpha = alpha;
     }

@@ -11,6 +11,7 @@ use super::tables::degrees_of_freedom;
 use super::{MOST_DIFFERENCES, Scaling};
 use crate::analysis::conclusion::{p_text, plural};
 use crate::analysis::statistic::Context;
+use crate::analysis::table::Interval;
 use crate::analysis::tails::chi_square_upper;
 
 /// More names than this are summed up.
@@ -29,7 +30,7 @@ pub(super) fn all(scaling: &Scaling, context: &Context<'_>) -> Vec<String> {
     }
     for (at, component) in scaling.components.iter().enumerate().take(MOST_PARTS) {
         match &scaling.scales[0][at] {
-            Ok(scale) => found.push(ends(scaling, component, scale, context)),
+            Ok(scale) => found.push(ends(scaling, at, scale, context)),
             Err(why) => found.push(format!(
                 "{} has no scale: {}.",
                 set(scaling, &component.members),
@@ -147,8 +148,11 @@ fn one_way(scaling: &Scaling, component: &Component) -> Option<String> {
 }
 
 /// Highest and lowest of a scale.
-fn ends(scaling: &Scaling, component: &Component, scale: &Scale, context: &Context<'_>) -> String {
+/// The ends of a component's scale. Their intervals are the bootstrap's where there are resamples:
+/// Wald's are too short where participants differ.
+fn ends(scaling: &Scaling, at: usize, scale: &Scale, context: &Context<'_>) -> String {
     let alpha = context.settings.alpha;
+    let component = &scaling.components[at];
     let name = |place: usize| scaling.table.techniques[component.members[place]].as_str();
     let places = || 0..component.members.len();
     let by_value = |a: &usize, b: &usize| scale.value(*a).total_cmp(&scale.value(*b));
@@ -160,9 +164,20 @@ fn ends(scaling: &Scaling, component: &Component, scale: &Scale, context: &Conte
             return format!("{} (0 by definition)", name(0));
         }
         let se = scale.standard_error(place, 0) / PROBIT_OF_JOD;
-        let ends = wald(jod, se, alpha);
+        let bootstrap = scaling.bootstrap.as_ref();
+        let resampled = bootstrap.and_then(|it| it.interval(at, place, alpha).ok());
+        let (kind, ends) = match resampled {
+            Some(ends) => (
+                "bootstrap interval",
+                Interval {
+                    low: ends.low / PROBIT_OF_JOD,
+                    high: ends.high / PROBIT_OF_JOD,
+                },
+            ),
+            None => ("interval", wald(jod, se, alpha)),
+        };
         format!(
-            "{} ({jod:.2} JOD, {}\u{a0}% interval {:.2} to {:.2})",
+            "{} ({jod:.2} JOD, {}\u{a0}% {kind} {:.2} to {:.2})",
             name(place),
             alpha.confidence_percent(),
             ends.low,
@@ -300,12 +315,12 @@ fn pooled(context: &Context<'_>) -> Option<String> {
 }
 
 fn uncertainty(scaling: &Scaling, context: &Context<'_>) -> String {
+    let independent = "Standard errors, Wald intervals and p take every vote as independent; votes of one participant need not be.";
     let Some(bootstrap) = &scaling.bootstrap else {
-        return "Standard errors take every vote as independent; votes of one participant need not be."
-            .to_owned();
+        return independent.to_owned();
     };
     let mut text = format!(
-        "Bootstrap intervals are expanded percentiles of {} of the {} (seed {}).",
+        "{independent} Bootstrap intervals are expanded percentiles of {} of the {} (seed {}).",
         plural(bootstrap.replicates, "resample"),
         plural(bootstrap.participants, "participant"),
         context.settings.seed,

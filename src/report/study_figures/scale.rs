@@ -108,6 +108,6 @@ fn caption(analysis: &Analysis, several: bool) -> String {
         ""
     };
     format!(
-        "Thurstone case V; 1 JOD apart means that 75 % prefer the one further right. Thick: {confidence} % Wald interval; thin: bootstrap over participants, where it was asked for. The first technique of a scale stands at 0 (ring), and the intervals are of the distance to it.{apart}"
+        "Thurstone case V; 1 JOD apart means that 75 % prefer the one further right. Thick: {confidence} % Wald interval; thin: bootstrap over participants, where they are known. The first technique of a scale stands at 0 (ring), and the intervals are of the distance to it.{apart}"
     )
 }
