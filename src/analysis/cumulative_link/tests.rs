@@ -180,6 +180,18 @@ fn is_strongly_connected(
     (0..nodes).all(|from| (0..nodes).all(|to| from == to || edge[from][to]))
 }
 
+/// The smallest such case: one rating of one technique, at the lowest point, and two of another.
+#[test]
+fn a_technique_that_is_always_at_the_lowest_point_has_no_estimate() {
+    let rows = [(0, 1), (0, 0), (1, 1)];
+    let observations: Vec<Observation> = (0..)
+        .zip(rows)
+        .map(|(i, (category, technique))| one(category, technique, 0, i))
+        .collect();
+    assert!(!is_strongly_connected(&rows, [2, 2]));
+    assert!(fit(&observations, [2, 2, 1]).is_err());
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
     #[test]
