@@ -1,8 +1,6 @@
 //! Cochran's Q: do the conditions that compare the same two techniques, answered by the same
 //! participants, all have the same share? McNemar's test for more than two conditions.
 
-use std::collections::BTreeMap;
-
 use super::conclusion::p_text;
 use super::dataset::Dataset;
 use super::holm;
@@ -229,17 +227,7 @@ fn row(
 /// Technique pairs with three conditions or more, in order of their first condition. Its base order
 /// says which technique is b.
 fn families(data: &Dataset) -> Vec<Family<'_>> {
-    let mut by_techniques: BTreeMap<(&str, &str), Vec<usize>> = BTreeMap::new();
-    for (i, condition) in data.conditions.iter().enumerate() {
-        let (a, b) = (
-            condition.technique_a.as_str(),
-            condition.technique_b.as_str(),
-        );
-        by_techniques
-            .entry((a.min(b), a.max(b)))
-            .or_default()
-            .push(i);
-    }
+    let by_techniques = data.by_techniques();
     let mut groups: Vec<Vec<usize>> = by_techniques
         .into_values()
         .filter(|g| g.len() > 2)

@@ -1,6 +1,8 @@
 //! What the statistics work on: votes by condition, and where single answers are known, the
 //! answers themselves.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use super::tails::Alpha;
@@ -293,6 +295,21 @@ impl Dataset {
     #[must_use]
     pub fn has_answers(&self) -> bool {
         !self.answers.is_empty()
+    }
+
+    /// The conditions that compare the same two techniques, in either base order: their indices by
+    /// the two names.
+    #[must_use]
+    pub fn by_techniques(&self) -> BTreeMap<(&str, &str), Vec<usize>> {
+        let mut groups: BTreeMap<(&str, &str), Vec<usize>> = BTreeMap::new();
+        for (i, condition) in self.conditions.iter().enumerate() {
+            let (a, b) = (
+                condition.technique_a.as_str(),
+                condition.technique_b.as_str(),
+            );
+            groups.entry((a.min(b), a.max(b))).or_default().push(i);
+        }
+        groups
     }
 
     /// Whether there is nothing at all to analyse.

@@ -1,8 +1,6 @@
 //! McNemar's exact test between two conditions of one technique pair: did the same participants
 //! choose differently when only the scene or its lighting changed (the thesis' H3)?
 
-use std::collections::BTreeMap;
-
 use super::dataset::{Dataset, Votes};
 use super::exact_binomial::exact_p;
 use super::holm;
@@ -114,17 +112,7 @@ fn test(discordant: Votes) -> Result<super::tails::Probability, Undefined> {
 /// Pairs (i, j), i < j, of conditions that compare the same two techniques in either base order;
 /// at most one more than [`MOST_PAIRS`].
 fn same_technique_pairs(data: &Dataset) -> Vec<(usize, usize)> {
-    let mut by_techniques: BTreeMap<(&str, &str), Vec<usize>> = BTreeMap::new();
-    for (i, condition) in data.conditions.iter().enumerate() {
-        let (a, b) = (
-            condition.technique_a.as_str(),
-            condition.technique_b.as_str(),
-        );
-        by_techniques
-            .entry((a.min(b), a.max(b)))
-            .or_default()
-            .push(i);
-    }
+    let by_techniques = data.by_techniques();
     let mut pairs: Vec<(usize, usize)> = by_techniques
         .values()
         .flat_map(|group| {

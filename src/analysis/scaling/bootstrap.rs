@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::comparison::{Comparisons, Pair};
 use super::link::Link;
-use super::scale::{Component, Method, component};
+use super::scale::{Component, Method, component, numbered_within};
 use crate::analysis::dataset::Dataset;
 use crate::analysis::statistic::Context;
 use crate::analysis::table::{Interval, Undefined};
@@ -149,15 +149,7 @@ fn refit(original: &Component, pairs: &[Pair]) -> Refitted {
 }
 
 fn is_connected(members: &[usize], pairs: &[Pair]) -> bool {
-    let place = |technique: usize| members.partition_point(|member| *member < technique);
-    let local: Vec<Pair> = pairs
-        .iter()
-        .map(|pair| Pair {
-            i: place(pair.i),
-            j: place(pair.j),
-            ..*pair
-        })
-        .collect();
+    let local = numbered_within(members, pairs);
     super::graph::components(members.len(), &local)
         .iter()
         .all(|label| *label == 0)

@@ -1,7 +1,5 @@
 //! The section in sentences.
 
-use std::collections::BTreeSet;
-
 use super::goodness::misfit;
 use super::graph;
 use super::link::{Link, PROBIT_OF_JOD};
@@ -297,18 +295,8 @@ fn one_scale(scaling: &Scaling, context: &Context<'_>) -> Option<String> {
 /// What a scale over several conditions means, where one pair of techniques was compared in more
 /// than one.
 fn pooled(context: &Context<'_>) -> Option<String> {
-    let conditions = &context.data.conditions;
-    let pairs: BTreeSet<[&str; 2]> = (conditions.iter())
-        .map(|condition| {
-            let mut pair = [
-                condition.technique_a.as_str(),
-                condition.technique_b.as_str(),
-            ];
-            pair.sort_unstable();
-            pair
-        })
-        .collect();
-    (pairs.len() < conditions.len()).then(|| {
+    let pairs = context.data.by_techniques().len();
+    (pairs < context.data.conditions.len()).then(|| {
         "Votes of all conditions that compare the same two techniques are pooled: where the preference depends on the scene or its light, the scale is an average over those that were shown."
             .to_owned()
     })

@@ -127,18 +127,21 @@ pub fn components(table: &Comparisons) -> (Vec<Component>, Vec<usize>) {
     (found, labels)
 }
 
+/// The pairs with their techniques numbered by their places among the members, which are sorted.
+pub(super) fn numbered_within(members: &[usize], pairs: &[Pair]) -> Vec<Pair> {
+    let place = |technique: usize| members.partition_point(|member| *member < technique);
+    let numbered = pairs.iter().map(|pair| Pair {
+        i: place(pair.i),
+        j: place(pair.j),
+        ..*pair
+    });
+    numbered.collect()
+}
+
 /// A component, with its strongly connected sets numbered from 0 in base order.
 #[must_use]
 pub fn component(members: Vec<usize>, pairs: Vec<Pair>) -> Component {
-    let place = |technique: usize| members.partition_point(|member| *member < technique);
-    let local: Vec<Pair> = pairs
-        .iter()
-        .map(|pair| Pair {
-            i: place(pair.i),
-            j: place(pair.j),
-            ..*pair
-        })
-        .collect();
+    let local = numbered_within(&members, &pairs);
     let sets = graph::strong_sets(members.len(), &local);
     Component {
         members,
